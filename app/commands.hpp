@@ -1,0 +1,15 @@
+// The program's commands: each adds its options to the command line and gives the action to run after parsing.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace app {
+
+// What a command did with all its input: 0, or 2 if part of it was bad.
+using Action = std::function<int()>;
+
+[[nodiscard]] Action add_render_command(CLI::App& program);
+[[nodiscard]] Action add_trace_command(CLI::App& program);
+
+}  // namespace app

@@ -1,0 +1,259 @@
+// vergence render: a scene through spectacles into an image.
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/commands.hpp"
+#include "app/device.hpp"
+#include "app/picture.hpp"
+#include "app/render_report.hpp"
+#include "app/render_setup.hpp"
+#include "render/image/colour_bar.hpp"
+#include "render/image/exr.hpp"
+#include "render/image/output_error.hpp"
+#include "render/image/png.hpp"
+#include "render/renderer.hpp"
+#include "tracking/input_error.hpp"
+
+namespace app {
+namespace {
+
+using render::Mode;
+using tracking::InputError;
+
+struct RenderOptions {
+  SceneOptions scene;
+  std::string mode = "adof";
+  std::string accuracy = "standard";
+  double threshold_px = 0.5;
+  bool all_effects = false;
+  std::string output_space = "display";
+  double exposure = 0.0;
+  std::optional<int> samples;
+  std::optional<double> target_error;
+  std::string range;
+  std::string colour_map = "hsv";
+  std::string output = "out.png";
+  std::string channels = "rgb";
+  std::string device;
+  std::string timings;
+  int repeat = 1;
+  std::uint32_t seed = 0;
+  bool json = false;
+};
+
+const std::vector<std::string> kModes{"pinhole",       "adof", "dof", "power", "astigmatism",
+                                      "accommodation", "blur"};  // in the order of render::Mode
+
+constexpr int kMostSamples = 65536, kDefaultSamples = 64, kSamplesForTarget = 4096;
+
+bool is_exr(const std::string& output) { return std::filesystem::path(output).extension() == ".exr"; }
+
+void check_options(const RenderOptions& options) {
+  const auto extension = std::filesystem::path(options.output).extension();
+  if (extension != ".png" && extension != ".exr") {
+    throw InputError("--output", "", "'" + options.output + "' must end in .png or .exr");
+  }
+  const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
+  // Said before minutes of work rather than after.
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw render::OutputError(options.output, "", "cannot be written: there is no folder " + folder.string());
+  }
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(options.output)) {
+    throw render::OutputError(options.output, "", "cannot be written: a file in a writable folder is expected");
+  }
+  if (options.channels == "all" && !is_exr(options.output)) {
+    throw InputError("--channels", "", "all needs an .exr --output; a .png holds the picture only");
+  }
+  check_range("--threshold", options.threshold_px, 0.0, 1000.0, "px");
+  check_range("--exposure", options.exposure, -32.0, 32.0, "EV");
+  if (options.samples) {
+    check_range("--samples", *options.samples, 1, kMostSamples, "");
+  }
+  if (options.target_error) {
+    check_range("--target-error", *options.target_error, 1e-6, 1.0, "");
+  }
+  check_range("--repeat", options.repeat, 1, 1000, "");
+}
+
+std::optional<render::MapRange> range_of(const RenderOptions& options) {
+  if (options.range.empty()) {
+    return std::nullopt;
+  }
+  const auto v = numbers_of("--range", options.range, 2, "LO,HI, such as 0,3");
+  if (!(v[0] < v[1])) {
+    throw InputError("--range", "", "'" + options.range + "' must have LO below HI");
+  }
+  return render::MapRange{v[0], v[1]};
+}
+
+Mode mode_of(const std::string& name) {
+  return static_cast<Mode>(std::ranges::find(kModes, name) - kModes.begin());
+}
+
+render::FrameConfig frame_config(const RenderOptions& options, const RenderSetup& setup) {
+  render::FrameConfig config;
+  config.width = setup.size[0];
+  config.height = setup.size[1];
+  config.mode = mode_of(options.mode);
+  config.threshold_px = options.all_effects ? 0.0 : options.threshold_px;
+  config.exposure = options.exposure;
+  config.samples = options.samples.value_or(options.target_error ? kSamplesForTarget : kDefaultSamples);
+  config.target_error = options.target_error;
+  config.seed = options.seed;
+  config.colour_map = options.colour_map == "hsv" ? 0 : 1;
+  config.range = range_of(options);
+  config.keep_radiance = is_exr(options.output) && !render::is_map(config.mode);
+  config.keep_wavefront = options.channels == "all";
+  return config;
+}
+
+std::string map_unit(Mode mode) { return mode == Mode::blur ? "arcmin" : "D"; }
+
+void write_picture(const RenderOptions& options, const PictureLayout& layout, const render::RenderedFrame& frame,
+                   Mode mode) {
+  if (is_exr(options.output)) {
+    render::write_exr(options.output, compose_channels(layout, frame, options.channels == "all"));
+    return;
+  }
+  render::Image8 picture = compose_display(layout, frame);
+  if (render::is_map(mode)) {
+    const std::string title = mode == Mode::blur ? "blur, semi-axis" : options.mode;
+    render::draw_colour_bar(picture, render::colour_bar_place(picture), options.colour_map == "hsv" ? 0 : 1,
+                            frame.range.low, frame.range.high, map_unit(mode), title);
+  }
+  render::write_png(options.output, picture);
+}
+
+render::Progress progress_bar(bool wanted) {
+  if (!wanted || ::isatty(STDERR_FILENO) == 0) {
+    return {};
+  }
+  return [](int done, int of) {
+    std::fprintf(stderr, "\r%d of %d samples%s", done, of, done == of ? "\n" : "");
+  };
+}
+
+int render_picture(const RenderOptions& options) {
+  check_options(options);
+  const std::string scene_file =
+      options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
+  const render::Scene scene = render::read_gltf(scene_file);
+  const RenderSetup setup = make_render_setup(options.scene, scene);
+  const render::FrameConfig config = frame_config(options, setup);
+  render::vk::Device device = open_device(options.device);
+  render::Renderer renderer(device, scene);
+  render::RenderedFrame frame;
+  std::vector<std::vector<render::vk::StageTime>> runs;
+  if (options.repeat > 1) {
+    // The first frame also pays for compiling; it is not timed.
+    static_cast<void>(renderer.render(setup.lenses, setup.views, config));
+  }
+  for (int i = 0; i < options.repeat; ++i) {
+    frame = renderer.render(setup.lenses, setup.views, config, progress_bar(config.mode == Mode::dof));
+    runs.push_back(frame.stages);
+  }
+  close_device(device);
+  const PictureLayout layout{config.width, config.height, setup.pairs.size(), setup.sides.size()};
+  write_picture(options, layout, frame, config.mode);
+
+  RenderReport report;
+  report.output = options.output;
+  report.device = device.name();
+  report.mode = options.mode;
+  report.width = config.width;
+  report.height = config.height;
+  report.triangles = scene.triangles.size();
+  report.views = setup.views.size();
+  report.samples = frame.samples;
+  report.error_estimate = frame.error_estimate;
+  report.is_map = render::is_map(config.mode);
+  report.range_low = frame.range.low;
+  report.range_high = frame.range.high;
+  report.range_unit = map_unit(config.mode);
+  report.sight = sight_rows(setup);
+  report.stages = stage_rows(runs);
+  if (!options.timings.empty()) {
+    append_timings(options.timings, report);
+  }
+  std::cout << (options.json ? to_json(report) : to_table(report)) << std::flush;
+  if (!std::cout) {
+    throw std::runtime_error("standard output: cannot be written");
+  }
+  return 0;
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& scene) {
+  command.add_option("--scene", scene.scene, "FILE.gltf or FILE.glb [the built-in reading room]");
+  command.add_option("--wearer", scene.wearer, "Wearer file [35 years, emmetropic]");
+  command.add_option("--spectacles", scene.spectacles, "Spectacles file, or none")->capture_default_str();
+  command.add_option("--compare", scene.compare, "A second pair: A left, B right of a divider in each eye");
+  command.add_option("--viewing", scene.viewing,
+                     "fixed: all rays from the primary-gaze pupil; scanning: the eye turns to each pixel; gaze: one\n"
+                     "pupil turned to the gaze, one accommodation state")
+      ->check(CLI::IsMember({"fixed", "scanning", "gaze"}))
+      ->capture_default_str();
+  command.add_option("--headset", scene.headset, "Headset file: pixels lie on its virtual image, light sets the pupil");
+  command.add_option("--eye", scene.eye, "left, right, or both (left | right side by side)")
+      ->check(CLI::IsMember({"left", "right", "both"}))
+      ->capture_default_str();
+  command.add_option("--size", scene.size, "WxH in pixels, of each eye's picture")->capture_default_str();
+  command.add_option("--fov", scene.fov_deg, "Vertical field of view, degrees")->capture_default_str();
+  auto* gaze = command.add_option("--gaze", scene.gaze, "YAW,PITCH in degrees, + right, + up, up to 45 each")
+                   ->capture_default_str();
+  command.add_option("--look-at", scene.look_at, "A target of the scene by name; the picture is centred on it")
+      ->excludes(gaze);
+  command.add_option("--pose", scene.pose,
+                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils [the scene's camera]");
+}
+
+}  // namespace
+
+Action add_render_command(CLI::App& program) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand("render", "A scene through spectacles into an image");
+  command->footer(
+      "Example:\n"
+      "  vergence render --wearer assets/wearers/presbyopia.json \\\n"
+      "    --spectacles assets/spectacles/presbyopia_bspline_sphere.json --look-at near_card --output near.png\n"
+      "The picture is centred on the gaze; head and lens stay where they are.");
+  add_scene_options(*command, options->scene);
+  command->add_option("--mode", options->mode, "What the picture shows")->check(CLI::IsMember(kModes))->capture_default_str();
+  command->add_option("--accuracy", options->accuracy, "Rung of the accuracy ladder")
+      ->check(CLI::IsMember({"standard"}))
+      ->capture_default_str();
+  command->add_option("--threshold", options->threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
+      ->capture_default_str();
+  command->add_flag("--all-effects", options->all_effects, "Draw every blur, however small");
+  command->add_option("--output-space", options->output_space,
+                      "display or retina; the effects drawn so far look the same in both")
+      ->check(CLI::IsMember({"display", "retina"}))
+      ->capture_default_str();
+  command->add_option("--exposure", options->exposure, "EV; fixed for the whole run")->capture_default_str();
+  auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64]");
+  command->add_option("--target-error", options->target_error,
+                      "Stop when the standard error of the mean luminance falls below this (dof)")
+      ->excludes(samples);
+  command->add_option("--range", options->range, "LO,HI of a map, D or arcmin [from the picture]");
+  command->add_option("--colormap", options->colour_map, "hsv (as in the paper) or viridis (perceptual)")
+      ->check(CLI::IsMember({"hsv", "viridis"}))
+      ->capture_default_str();
+  command->add_option("--output", options->output, "FILE.png (sRGB) or FILE.exr (linear)")->capture_default_str();
+  command->add_option("--channels", options->channels,
+                      "rgb, or all (EXR: depth, V.hh, V.hv, V.vv, blur, accommodation too)")
+      ->check(CLI::IsMember({"rgb", "all"}))
+      ->capture_default_str();
+  command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
+  command->add_option("--repeat", options->repeat, "Render so often after a first, untimed frame; report the median")
+      ->capture_default_str();
+  command->add_option("--timings", options->timings, "CSV file that a row a stage is added to");
+  command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();
+  command->add_flag("--json", options->json, "Print the numbers as JSON");
+  return [options] { return render_picture(*options); };
+}
+
+}  // namespace app

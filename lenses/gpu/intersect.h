@@ -1,0 +1,154 @@
+// Where a ray first passes through a lens surface from its eye side (+z) to its object side.
+//
+// Plane and sphere in closed form, in a form that holds at curvature 0. Everything else by Newton's method on
+// f(t) = o_z + t d_z - sag(o_xy + t d_xy), started on the base sphere (the paper's Newton, section 4.1, with a
+// tolerance in place of three steps); where that does not settle on a proper crossing - the rim, grazing rays, a
+// start outside the patch - a bracketed search over the part of the ray inside the lens's cylinder decides.
+
+struct SurfaceHit {
+  bool found;
+  real t;
+  SurfacePoint point;
+};
+
+const int kNewtonSteps = 12;
+const int kBracketSamples = 48;
+const int kBisectionSteps = 64;
+
+// The crossing of a sphere of curvature c through the origin's vertex, from the eye side outwards:
+// c |p|^2 - 2 p_z = 0. Returns a negative t where there is none. `sheet` is set where it lies on the vertex's half.
+VG_FUNCTION real sphere_crossing(real c, vec3 o, vec3 d, VG_INOUT(bool) sheet) {
+  real b = c * dot(o, d) - d.z;
+  real k = c * dot(o, o) - real(2) * o.z;
+  real disc = b * b - c * k;
+  sheet = false;
+  if (!(disc >= real(0))) {
+    return real(-1);
+  }
+  real root = sqrt(disc);
+  real t = real(-1);
+  if (b > real(0)) {
+    t = -k / (b + root);
+  } else if (c != real(0)) {
+    t = (root - b) / c;
+  }
+  sheet = real(1) - c * (o.z + t * d.z) > real(0);
+  return t;
+}
+
+VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
+  SurfaceHit hit;
+  hit.found = false;
+  hit.t = real(0);
+  // The part of the ray within the lens's cylinder, a hair wider so that the rim itself is inside.
+  real a = d.x * d.x + d.y * d.y;
+  real b = o.x * d.x + o.y * d.y;
+  real radius = semi_diameter * real(1.0001);
+  real c = o.x * o.x + o.y * o.y - radius * radius;
+  real t0 = real(0);
+  // A ray along the axis is searched to well past any sag a lens can have.
+  real t1 = abs(o.z) + real(4) * semi_diameter;
+  if (a > kEpsilon * kEpsilon) {
+    real disc = b * b - a * c;
+    if (!(disc >= real(0))) {
+      return hit;
+    }
+    real root = sqrt(disc);
+    t0 = max(t0, (-b - root) / a);
+    t1 = min(t1, (-b + root) / a);
+  }
+  if (!(t1 > t0)) {
+    return hit;
+  }
+  real low = t0;
+  real high = t0;
+  bool above = false;
+  bool bracketed = false;
+  for (int i = 0; i <= kBracketSamples; ++i) {
+    real t = t0 + (t1 - t0) * real(i) / real(kBracketSamples);
+    vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
+    SurfacePoint point = surface_point(TABLE s, q);
+    real f = o.z + t * d.z - point.z;
+    if (!point.inside) {
+      above = false;
+    } else if (above && f <= real(0)) {
+      high = t;
+      bracketed = true;
+      break;
+    } else {
+      above = f > real(0);
+      low = t;
+    }
+  }
+  if (!bracketed) {
+    return hit;
+  }
+  real t = real(0.5) * (low + high);
+  for (int i = 0; i < kBisectionSteps; ++i) {
+    vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
+    hit.point = surface_point(TABLE s, q);
+    real f = o.z + t * d.z - hit.point.z;
+    if (f > real(0)) {
+      low = t;
+    } else {
+      high = t;
+    }
+    real slope = d.z - hit.point.gradient.x * d.x - hit.point.gradient.y * d.y;
+    real next = t - f / slope;
+    if (!(next > low && next < high)) {
+      next = real(0.5) * (low + high);
+    }
+    if (abs(next - t) <= real(2) * kEpsilon * (abs(t) + abs(o.z))) {
+      break;
+    }
+    t = next;
+  }
+  hit.t = t;
+  hit.found = hit.point.inside;
+  return hit;
+}
+
+VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
+  SurfaceHit hit;
+  hit.found = false;
+  bool sheet = false;
+  real scale = abs(o.z) + semi_diameter;
+  if (s.kind.x <= kSphere || (USED_KINDS >> uint(kConic)) == 0u) {
+    real t = sphere_crossing(s.shape.x, o, d, sheet);
+    hit.t = abs(t) <= real(4) * kEpsilon * scale ? real(0) : t;  // a start that touches the surface is a hit
+    vec2 q = vec2(o.x + hit.t * d.x, o.y + hit.t * d.y);
+    hit.point = surface_point(TABLE s, q);
+    hit.found = sheet && hit.t >= real(0) && hit.point.inside;
+    return hit;
+  }
+  vec3 from_guess = vec3(o.x, o.y, o.z - s.frame.z);
+  real t = sphere_crossing(s.frame.w, from_guess, d, sheet);
+  bool settled = false;
+  if (sheet) {
+    real last = scale;
+    for (int i = 0; i < kNewtonSteps; ++i) {
+      vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
+      hit.point = surface_point(TABLE s, q);
+      real slope = d.z - hit.point.gradient.x * d.x - hit.point.gradient.y * d.y;
+      // Below this slope (71 degrees of incidence) another crossing may come first; the search decides.
+      if (!(slope < real(-0.33))) {
+        break;
+      }
+      real dt = -(o.z + t * d.z - hit.point.z) / slope;
+      real size = abs(dt);
+      // Rounding ends the iteration: within tolerance, or no longer shrinking once it is near it.
+      if (size <= real(2) * kEpsilon * scale || (size <= real(64) * kEpsilon * scale && size >= last)) {
+        settled = true;
+        break;
+      }
+      t += dt;
+      last = size;
+    }
+  }
+  if (settled && hit.point.inside && t >= real(-4) * kEpsilon * scale) {
+    hit.t = max(t, real(0));
+    hit.found = true;
+    return hit;
+  }
+  return bracketed_hit(TABLE s, o, d, semi_diameter);
+}

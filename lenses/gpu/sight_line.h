@@ -1,0 +1,81 @@
+// One line of sight of one eye, with or without a lens: from a direction in head axes to the ray that goes on into the
+// scene and, for a distance met there, to the wavefront at the pupil.
+//
+// The eye sits in primary-gaze axes (origin: entrance pupil in primary gaze). `turn` is the eye's rotation about its
+// centre of rotation; matrices and bases are those of the turned eye.
+
+struct SightLine {
+  int status;
+  mat3 turn;
+  vec3 pupil;             // centre of the entrance pupil, primary axes
+  vec3 e_h;               // basis of the pupil plane, primary axes
+  vec3 e_v;
+  vec3 start;             // where the ray leaves for the scene: front hit, or the pupil without a lens
+  vec3 back_hit;
+  vec3 direction;         // unit, before the lens
+  vec3 direction_object;  // unit, beyond it
+  LensPath path;
+};
+
+// The pupil's place after the eye has turned about a point `depth` behind it.
+VG_FUNCTION vec3 turned_pupil(mat3 turn, real depth) {
+  vec3 centre = vec3(real(0), real(0), depth);
+  return centre - turn * centre;
+}
+
+// direction: unit, primary axes. A lens attached to the eye is traced in the turned eye's frame.
+VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, mat3 turn, vec3 direction,
+                                       vec2 pupil_offset, vec2 momentum) {
+  SightLine line;
+  line.status = kStatusOk;
+  line.turn = turn;
+  line.pupil = turned_pupil(turn, eye.pupil.y);
+  vec3 local = transpose(turn) * direction;  // in the turned eye's axes
+  vec3 local_h = pupil_basis_h(local);
+  vec3 local_v = cross(local_h, local);
+  line.e_h = turn * local_h;
+  line.e_v = turn * local_v;
+  // A ray through another point of the pupil than its centre, for distributed rays (paper, section 6.2).
+  line.direction = normalize(direction + momentum.x * line.e_h + momentum.y * line.e_v);
+  vec3 origin = line.pupil + pupil_offset.x * line.e_h + pupil_offset.y * line.e_v;
+  line.start = origin;
+  line.back_hit = origin;
+  line.direction_object = line.direction;
+  if (lens.glass.w == real(0)) {
+    return line;
+  }
+  bool on_eye = lens.mount.x == 1;
+  mat3 frame = on_eye ? turn : mat3(real(1));
+  vec3 shift = on_eye ? line.pupil : vec3(real(0), real(0), real(0));
+  mat3 back_frame = transpose(frame);
+  vec3 o = back_frame * (origin - shift);
+  vec3 d = back_frame * line.direction;
+  line.path = trace_lens(TABLE lens, to_lens_point(lens, o), to_lens_direction(lens, d));
+  line.status = line.path.status;
+  if (line.status == kStatusOk) {
+    line.back_hit = frame * from_lens_point(lens, line.path.back_hit) + shift;
+    line.start = frame * from_lens_point(lens, line.path.front_hit) + shift;
+    line.direction_object = frame * from_lens_direction(lens, line.path.direction_object);
+  }
+  return line;
+}
+
+// The ray-transfer matrix from the pupil plane to where the line starts into the scene.
+VG_FUNCTION RayTransfer sight_line_transfer(LensData lens, SightLine line) {
+  if (lens.glass.w == real(0)) {
+    return free_flight(real(0));
+  }
+  mat3 frame = lens.mount.x == 1 ? transpose(line.turn) : mat3(real(1));
+  return lens_transfer(lens, line.path, to_lens_direction(lens, frame * line.e_h),
+                       to_lens_direction(lens, frame * line.e_v));
+}
+
+// V of a point at distance 1/q along the object ray: hh, hv, vv (D). Sets `singular` in the line's stead.
+VG_FUNCTION vec3 sight_line_vergence(RayTransfer transfer, real q, VG_INOUT(int) status) {
+  bool regular = true;
+  mat2 v = vergence_matrix(transfer, q, regular);
+  if (!regular) {
+    status = kStatusSingular;
+  }
+  return vec3(v[0][0], real(0.5) * (v[0][1] + v[1][0]), v[1][1]);
+}

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "lenses/lens.hpp"
+#include "lenses/lens_io/json_fields.hpp"
+
+namespace lenses::io {
+
+// A lens object, be it a file of its own, one of a pair, or part of a trace request.
+[[nodiscard]] Lens read_lens_object(const Field& lens);
+
+}  // namespace lenses::io

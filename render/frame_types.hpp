@@ -1,0 +1,13 @@
+// The structures the shaders share with the host (render/shaders/frame.h and view.h), as C++.
+#pragma once
+
+#include "lenses/engine.hpp"
+
+namespace render::gpu {
+using lenses::f32::EyeData;
+using lenses::f32::LensData;
+using glm::ivec4;
+using glm::vec4;
+#include "render/shaders/frame.h"
+#include "render/shaders/view.h"
+}  // namespace render::gpu

@@ -1,0 +1,82 @@
+#include "render/gpu_tracer.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "render/vk/buffer.hpp"
+#include "render/vk/commands.hpp"
+#include "render/vk/kernel.hpp"
+#include "shaders/trace.hpp"
+
+namespace render {
+namespace {
+
+constexpr std::uint32_t kGroup = 64;       // local size of trace.comp.glsl
+constexpr std::size_t kChunk = 1U << 18U;  // rays a submission: 32 MiB of records
+
+template <class T>
+vk::Buffer filled(vk::Device& device, const std::vector<T>& values) {
+  vk::Buffer buffer(device, std::max<std::size_t>(values.size(), 1) * sizeof(T), vk::Memory::device);
+  if (!values.empty()) {
+    buffer.write(values);
+  }
+  return buffer;
+}
+
+template <class To, class From>
+std::vector<To> rounded(const std::vector<From>& values) {
+  std::vector<To> out;
+  out.reserve(values.size());
+  std::ranges::transform(values, std::back_inserter(out), [](const From& v) { return lenses::to_float(v); });
+  return out;
+}
+
+}  // namespace
+
+std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
+  std::uint32_t kinds = 1U;  // a plane costs nothing and is what an empty slot holds
+  for (const auto& lens : lenses) {
+    kinds |= 1U << static_cast<unsigned>(lens.back.kind.x);
+    kinds |= 1U << static_cast<unsigned>(lens.front.kind.x);
+  }
+  return kinds;
+}
+
+std::vector<lenses::f32::TraceOutput> trace_on_gpu(vk::Device& device, const lenses::TraceBatch& batch) {
+  using lenses::f32::TraceInput;
+  using lenses::f32::TraceOutput;
+  std::vector<TraceOutput> results;
+  if (batch.rays.empty()) {
+    return results;
+  }
+  const std::array<std::uint32_t, 1> specialization{surface_kinds(batch.model.lens)};
+  const std::array bindings{vk::Binding::texel_rgba32f, vk::Binding::storage_buffer, vk::Binding::storage_buffer,
+                            vk::Binding::storage_buffer, vk::Binding::storage_buffer};
+  const vk::Kernel kernel(device, shaders::trace, bindings, sizeof(std::uint32_t), specialization, "trace");
+  std::vector<glm::vec4> entries = lenses::to_float(batch.model.table);
+  entries.resize(std::max<std::size_t>(entries.size(), 1));
+  const vk::Buffer table = filled(device, entries);
+  const vk::Buffer lens_buffer = filled(device, rounded<lenses::f32::LensData>(batch.model.lens));
+  const vk::Buffer eye_buffer = filled(device, rounded<lenses::f32::EyeData>(batch.eyes));
+  results.reserve(batch.rays.size());
+  for (std::size_t first = 0; first < batch.rays.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, batch.rays.size() - first);
+    std::vector<TraceInput> rays;
+    rays.reserve(count);
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto& ray = batch.rays[i];
+      rays.push_back({glm::vec4(ray.direction), glm::vec4(ray.gaze), ray.which});
+    }
+    const vk::Buffer input = filled(device, rays);
+    const vk::Buffer output(device, count * sizeof(TraceOutput), vk::Memory::readback);
+    vk::Commands commands(device);
+    const auto ray_count = static_cast<std::uint32_t>(count);
+    commands.dispatch(kernel, {&table, &lens_buffer, &eye_buffer, &input, &output}, vk::bytes_of(ray_count),
+                      (ray_count + kGroup - 1) / kGroup);
+    device.run(commands);
+    std::ranges::copy(output.read<TraceOutput>(count), std::back_inserter(results));
+  }
+  return results;
+}
+
+}  // namespace render

@@ -1,0 +1,40 @@
+// Owners of Embree's handles, and its errors as exceptions.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace render {
+
+template <auto release>
+struct EmbreeRelease {
+  template <typename T>
+  void operator()(T* handle) const {
+    release(handle);
+  }
+};
+
+using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRelease<rtcReleaseDevice>>;
+using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease<rtcReleaseScene>>;
+using EmbreeGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease<rtcReleaseGeometry>>;
+using EmbreeBvh = std::unique_ptr<std::remove_pointer_t<RTCBVH>, EmbreeRelease<rtcReleaseBVH>>;
+
+// Throws when the last call on the device failed; what: the call.
+inline void check_embree(RTCDevice device, const char* what) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE) {
+    throw std::runtime_error(std::string("Embree: ") + what + " failed with error " + std::to_string(error));
+  }
+}
+
+inline EmbreeDevice make_embree_device() {
+  EmbreeDevice device(rtcNewDevice(nullptr));
+  if (!device) check_embree(nullptr, "rtcNewDevice");
+  return device;
+}
+
+}  // namespace render

@@ -1,0 +1,86 @@
+#include "render/scene/ray_query.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "render/scene/embree_device.hpp"
+
+namespace render {
+
+struct RayQuery::State {
+  EmbreeDevice device;
+  EmbreeScene scene;
+  std::vector<glm::vec3> positions;
+  std::vector<glm::uvec3> triangles;
+
+  // Distance along a unit direction to the triangle's plane, in double precision: Embree's float distance is only good
+  // to 1e-7 of the coordinates. Its own value where the ray lies almost in the plane.
+  [[nodiscard]] double refine(const glm::dvec3& origin, const glm::dvec3& direction, std::uint32_t triangle,
+                              double rough) const {
+    const glm::uvec3 index = triangles[triangle];
+    const glm::dvec3 v0(positions[index.x]);
+    const glm::dvec3 normal = glm::cross(glm::dvec3(positions[index.y]) - v0, glm::dvec3(positions[index.z]) - v0);
+    const double slope = glm::dot(normal, direction);
+    const double distance = glm::dot(normal, v0 - origin) / slope;
+    const bool steep = std::abs(slope) > 1e-6 * glm::length(normal);
+    return steep && std::isfinite(distance) ? std::max(distance, 0.0) : rough;
+  }
+};
+
+RayQuery::RayQuery(const Scene& scene) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.positions.reserve(scene.vertices.size());
+  for (const Vertex& vertex : scene.vertices) s.positions.push_back(vertex.position);
+  s.triangles = scene.triangles;
+  s.device = make_embree_device();
+  s.scene.reset(rtcNewScene(s.device.get()));
+  rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
+
+  const EmbreeGeometry geometry(rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), s.positions.size()));
+  auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+      geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), s.triangles.size()));
+  check_embree(s.device.get(), "rtcSetNewGeometryBuffer");
+  if (!s.positions.empty()) std::copy(s.positions.begin(), s.positions.end(), vertices);
+  if (!s.triangles.empty()) std::copy(s.triangles.begin(), s.triangles.end(), indices);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(s.scene.get(), geometry.get());
+  rtcCommitScene(s.scene.get());
+  check_embree(s.device.get(), "rtcCommitScene");
+}
+
+RayQuery::~RayQuery() = default;
+RayQuery::RayQuery(RayQuery&&) noexcept = default;
+RayQuery& RayQuery::operator=(RayQuery&&) noexcept = default;
+
+std::optional<RayQuery::Hit> RayQuery::closest(glm::dvec3 origin, glm::dvec3 direction) const {
+  const double length = glm::length(direction);
+  const glm::dvec3 unit = direction / length;
+  // Embree's coordinates end at 1.8e18.
+  const bool near = std::abs(origin.x) < 1e18 && std::abs(origin.y) < 1e18 && std::abs(origin.z) < 1e18;
+  if (!near || !std::isfinite(length) || !std::isfinite(unit.x + unit.y + unit.z)) return std::nullopt;
+  const glm::vec3 o(origin), d(unit);
+  RTCRayHit ray{};
+  ray.ray.org_x = o.x;
+  ray.ray.org_y = o.y;
+  ray.ray.org_z = o.z;
+  ray.ray.dir_x = d.x;
+  ray.ray.dir_y = d.y;
+  ray.ray.dir_z = d.z;
+  ray.ray.tfar = std::numeric_limits<float>::infinity();
+  ray.ray.mask = 0xFFFFFFFFU;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(state_->scene.get(), &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  const double distance = state_->refine(origin, unit, ray.hit.primID, static_cast<double>(ray.ray.tfar));
+  return Hit{distance, ray.hit.primID};
+}
+
+}  // namespace render

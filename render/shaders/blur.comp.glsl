@@ -1,0 +1,85 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Approximate defocus (paper, section 6.3): each pixel gathers over its own blur ellipse. The ellipse comes from the
+// eigenvalues of the residual, and the kernel is the uniform ellipse of a round pupil rather than the paper's Gaussian.
+// A neighbour in front of this pixel counts only as far as its own blur reaches here, so that nothing sharp bleeds.
+#include "render/shaders/frame.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform usamplerBuffer pixels;
+layout(std430, binding = 1) writeonly buffer Blurred { uvec2 blurred[]; };
+layout(push_constant) uniform Frame { FrameData frame; };
+
+struct Tap {
+  vec3 radiance;
+  vec3 ellipse;
+  float depth;
+};
+
+Tap tap_at(int at) {
+  uvec4 p = texelFetch(pixels, at);
+  vec2 rg = unpackHalf2x16(p.x);
+  vec2 bx = unpackHalf2x16(p.y);
+  Tap tap;
+  tap.radiance = vec3(rg, bx.x);
+  tap.ellipse = vec3(bx.y, unpackHalf2x16(p.z));
+  tap.depth = uintBitsToFloat(p.w);
+  return tap;
+}
+
+// 1/depth orders points from near to far with the sky last.
+float nearness(float depth) { return depth > 0.0 ? 1.0 / depth : 0.0; }
+
+float major(vec3 s) { return 0.5 * (s.x + s.z) + sqrt(0.25 * (s.x - s.z) * (s.x - s.z) + s.y * s.y); }
+
+// How far inside its own blur ellipse a point at `offset` from a tap lies: 1 inside, 0 outside, a pixel's width between.
+float covers(vec3 s, vec2 offset) {
+  float trace = s.x + s.z;
+  // Half a pixel more than the ellipse, so that a blur smaller than the pixel grid still covers its own pixel.
+  vec3 wide = s + vec3(0.5, 0.0, 0.5);
+  float det = wide.x * wide.z - wide.y * wide.y;
+  vec2 inner = vec2(wide.z * offset.x - wide.y * offset.y, wide.x * offset.y - wide.y * offset.x) / max(det, 1e-6);
+  return clamp((1.0 - length(inner)) * (0.5 * trace + 0.5) + 0.5, 0.0, 1.0);
+}
+
+void main() {
+  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 size = frame.size.xy;
+  if (p.x >= size.x || p.y >= size.y) {
+    return;
+  }
+  int base = int(gl_GlobalInvocationID.z) * size.x * size.y;
+  int at = base + p.y * size.x + p.x;
+  Tap centre = tap_at(at);
+  float reach = major(centre.ellipse);
+  vec3 sum = centre.radiance;
+  float weight = 1.0;
+  if (reach >= frame.limits.x) {
+    float minor = max(centre.ellipse.x + centre.ellipse.z - reach, 0.5);
+    int taps = int(clamp(3.0 * reach * minor, 16.0, 128.0));
+    float here = nearness(centre.depth);
+    vec2 turn = vec2(1.0, 0.0);
+    const vec2 golden = vec2(-0.7373688780783197, 0.6754902942615238);
+    for (int k = 0; k < taps; ++k) {
+      float radius = sqrt((float(k) + 0.5) / float(taps));
+      turn = vec2(turn.x * golden.x - turn.y * golden.y, turn.x * golden.y + turn.y * golden.x);
+      vec2 disc = turn * radius;
+      vec2 offset = vec2(centre.ellipse.x * disc.x + centre.ellipse.y * disc.y,
+                         centre.ellipse.y * disc.x + centre.ellipse.z * disc.y);
+      ivec2 q = clamp(p + ivec2(round(offset)), ivec2(0), size - 1);
+      Tap tap = tap_at(base + q.y * size.x + q.x);
+      float in_front = clamp((nearness(tap.depth) - here) * 20.0 / max(here, 0.05), 0.0, 1.0);
+      float w = mix(1.0, covers(tap.ellipse, vec2(q - p)), in_front);
+      w = tap.depth < 0.0 ? 0.0 : w;  // the rim stays where it is
+      sum += w * tap.radiance;
+      weight += w;
+    }
+    if (centre.depth >= 0.0) {
+      // The centre's own share is that of one tap among many; it was counted once above.
+      sum /= weight;
+    } else {
+      sum = centre.radiance;
+    }
+  }
+  blurred[at] = uvec2(packHalf2x16(sum.rg), packHalf2x16(vec2(sum.b, 1.0)));
+}

@@ -1,0 +1,62 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Pixels at an edge - another material, face, status or depth beside them - get four rays more, on a rotated grid; the
+// radiance becomes the mean over the pixel's square, the filter that every mode integrates.
+#include "render/shaders/scene_bindings.glsl"
+#include "render/shaders/shading.glsl"
+#include "render/shaders/pixel.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 10) buffer Pixels { uvec4 pixels[]; };
+layout(std430, binding = 11) readonly buffer Keys { uint keys[]; };
+
+bool differs(uint key, float depth, int at) {
+  uint other = keys[at];
+  uint change = other ^ key;
+  if ((change & 0xffffu) != 0u) {
+    return true;
+  }
+  if (change != 0u) {
+    ivec3 a = ivec3((uvec3(key) >> uvec3(16u, 21u, 26u)) & 31u);
+    ivec3 b = ivec3((uvec3(other) >> uvec3(16u, 21u, 26u)) & 31u);
+    ivec3 d = abs(a - b);
+    if (d.x + d.y + d.z > 6) {
+      return true;
+    }
+  }
+  float other_depth = uintBitsToFloat(pixels[at].w);
+  return abs(other_depth - depth) > 0.05 * max(max(depth, other_depth), 0.0);
+}
+
+void main() {
+  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  int eye = int(gl_GlobalInvocationID.z);
+  ivec2 size = frame.size.xy;
+  if (p.x >= size.x || p.y >= size.y) {
+    return;
+  }
+  int base = eye * size.x * size.y;
+  int at = base + p.y * size.x + p.x;
+  uint key = keys[at];
+  uvec4 pixel = pixels[at];
+  float depth = uintBitsToFloat(pixel.w);
+  bool edge = false;
+  for (int k = 0; k < 8; ++k) {
+    int n = k < 4 ? k : k + 1;  // the eight neighbours
+    ivec2 q = clamp(p + ivec2(n % 3 - 1, n / 3 - 1), ivec2(0), size - 1);
+    edge = edge || differs(key, depth, base + q.y * size.x + q.x);
+  }
+  if (!edge) {
+    return;
+  }
+  ViewData view = views[eye];
+  const vec2 offsets[4] =
+      vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+  vec3 sum = vec3(unpackHalf2x16(pixel.x), unpackHalf2x16(pixel.y).x);
+  for (int i = 0; i < 4; ++i) {
+    sum += trace_pixel(view, pixel_direction(view, vec2(p) + offsets[i]), vec2(0.0), vec2(0.0)).radiance;
+  }
+  vec3 mean = sum * 0.2;
+  pixels[at].x = packHalf2x16(mean.rg);
+  pixels[at].y = packHalf2x16(vec2(mean.b, unpackHalf2x16(pixel.y).y));
+}

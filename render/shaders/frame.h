@@ -1,0 +1,26 @@
+// A frame's settings, declared once: C++ includes this inside namespace render::gpu (render/frame_types.hpp), GLSL
+// as it is. Only vec4, ivec4 and uvec4 members, so that std430 and C++ agree without padding.
+
+const int kModePinhole = 0;
+const int kModeAdof = 1;
+const int kModeDof = 2;
+const int kModePower = 3;
+const int kModeAstigmatism = 4;
+const int kModeAccommodation = 5;
+const int kModeBlur = 6;
+
+// 64 bytes of push constants, the same for every kernel of a frame.
+struct FrameData {
+  ivec4 size;      // width, height, views, mode
+  ivec4 sampling;  // index of this sample (dof), samples so far, seed, colour map
+  vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor, -
+  vec4 map_range;  // low, high, unit factor, -
+};
+
+// A traced pixel, 16 bytes: radiance and the blur ellipse as half floats, the depth beside them.
+//   x: radiance r, g   y: radiance b, ellipse xx   z: ellipse xy, yy   w: bits(depth)
+// The ellipse is the symmetric root of the blur's shape: it takes the unit disc to the blur in pixels.
+// depth: metres along the refracted ray, 0 = sky, -1 = none.
+
+// A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
+const int kWavefrontTexels = 2;

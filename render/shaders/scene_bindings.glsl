@@ -1,0 +1,22 @@
+// The scene's and the lenses' buffers, at the same places in every kernel that traces. See render/tracer_buffers.hpp.
+layout(binding = 0) uniform samplerBuffer lens_table;
+layout(binding = 1) uniform usamplerBuffer bvh_nodes;
+layout(binding = 2) uniform samplerBuffer bvh_triangles;
+layout(binding = 3) uniform samplerBuffer shading_triangles;
+layout(binding = 4) uniform usamplerBuffer texels;  // RGB9E5, linear
+
+layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a surface of kind k
+#define USED_KINDS kSurfaceKinds
+
+#include "lenses/gpu/optics.h"
+#include "render/shaders/frame.h"
+#include "render/shaders/view.h"
+
+layout(std430, binding = 5) readonly buffer Views { ViewData views[]; };
+layout(std430, binding = 6) readonly buffer Environment { EnvironmentData environment; };
+layout(std430, binding = 7) readonly buffer Lights { LightData lights[]; };
+layout(std430, binding = 8) readonly buffer Materials { MaterialData materials[]; };
+layout(std430, binding = 9) readonly buffer Textures { TextureData textures[]; };
+layout(push_constant) uniform Frame { FrameData frame; };
+
+#include "render/shaders/traverse_bvh4.glsl"

@@ -1,0 +1,136 @@
+#include "render/vk/device.hpp"
+
+#include <limits>
+
+#include "render/vk/handles.hpp"
+#include "render/vk/pipeline_cache.hpp"
+
+namespace render::vk {
+namespace {
+
+DeviceLimits limits_of(const raii::PhysicalDevice& physical, const ::vk::QueueFamilyProperties& family,
+                       bool has_float64) {
+  const auto properties =
+      physical.getProperties2<::vk::PhysicalDeviceProperties2, ::vk::PhysicalDeviceVulkan11Properties>();
+  const auto& device = properties.get<::vk::PhysicalDeviceProperties2>().properties.limits;
+  DeviceLimits limits;
+  limits.max_storage_buffer_bytes = device.maxStorageBufferRange;
+  limits.max_texel_elements = device.maxTexelBufferElements;
+  limits.max_uniform_buffer_bytes = device.maxUniformBufferRange;
+  limits.max_push_constant_bytes = device.maxPushConstantsSize;
+  for (std::size_t i = 0; i < 3; ++i) limits.max_groups[i] = device.maxComputeWorkGroupCount[i];
+  limits.max_workgroup_invocations = device.maxComputeWorkGroupInvocations;
+  limits.subgroup_size = properties.get<::vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
+  limits.shared_bytes = device.maxComputeSharedMemorySize;
+  limits.timestamp_period_ns = family.timestampValidBits == 0 ? 0.0 : static_cast<double>(device.timestampPeriod);
+  limits.has_float64 = has_float64;
+  return limits;
+}
+
+using FeatureChain = ::vk::StructureChain<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features>;
+
+// Of what the device offers, what the shaders may use: the parity tests want doubles, the structs shared by C++ and
+// GLSL scalar layout.
+FeatureChain features_to_enable(const raii::PhysicalDevice& physical) {
+  const auto offered = physical.getFeatures2<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features>();
+  const auto& core = offered.get<::vk::PhysicalDeviceFeatures2>().features;
+  const auto& core12 = offered.get<::vk::PhysicalDeviceVulkan12Features>();
+  FeatureChain wanted;
+  wanted.get<::vk::PhysicalDeviceFeatures2>().features.setShaderFloat64(core.shaderFloat64);
+  wanted.get<::vk::PhysicalDeviceFeatures2>().features.setShaderInt64(core.shaderInt64);
+  wanted.get<::vk::PhysicalDeviceVulkan12Features>()
+      .setScalarBlockLayout(core12.scalarBlockLayout)
+      .setUniformBufferStandardLayout(core12.uniformBufferStandardLayout);
+  return wanted;
+}
+
+raii::Device create_device(const raii::PhysicalDevice& physical, std::uint32_t queue_family,
+                           const FeatureChain& features) {
+  const float priority = 1.0F;
+  const ::vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
+  ::vk::DeviceCreateInfo info({}, queue);
+  info.setPNext(&features.get<::vk::PhysicalDeviceFeatures2>());
+  return {physical, info};
+}
+
+DriverId driver_id(const raii::PhysicalDevice& physical) {
+  const auto properties = physical.getProperties();
+  return {properties.vendorID, properties.deviceID, properties.pipelineCacheUUID};
+}
+
+}  // namespace
+
+DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(wanted.validation) {
+  physical = pick_device(usable_devices(instance), config.device);
+  name = physical.getProperties().deviceName.data();
+  queue_family = compute_queue_family(physical);
+  const auto family = physical.getQueueFamilyProperties()[queue_family];
+  const std::uint32_t bits = family.timestampValidBits;
+  timestamp_mask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
+  guarded("opening the device " + name, [&] {
+    const FeatureChain features = features_to_enable(physical);
+    limits = limits_of(physical, family, bool(features.get<::vk::PhysicalDeviceFeatures2>().features.shaderFloat64));
+    device = create_device(physical, queue_family, features);
+    queue = device.getQueue(queue_family, 0);
+    pool = {device, {::vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family}};
+    std::vector<std::uint8_t> cached;
+    if (!config.pipeline_cache.empty()) cached = read_pipeline_cache(config.pipeline_cache, driver_id(physical));
+    cache = {device, ::vk::PipelineCacheCreateInfo({}, cached.size(), cached.data())};
+  });
+}
+
+raii::CommandBuffer DeviceState::begin() const {
+  raii::CommandBuffers buffers(device, {*pool, ::vk::CommandBufferLevel::ePrimary, 1});
+  raii::CommandBuffer commands = std::move(buffers.front());
+  commands.begin({});
+  record_barrier(commands);  // after whatever was submitted before
+  return commands;
+}
+
+void DeviceState::submit(const raii::CommandBuffer& commands) const {
+  const raii::Fence done(device, ::vk::FenceCreateInfo());
+  ::vk::SubmitInfo info;
+  info.setCommandBuffers(*commands);
+  queue.submit(info, *done);
+  const auto result = device.waitForFences(*done, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+  if (result != ::vk::Result::eSuccess) throw DeviceError("waiting for " + name + ": " + ::vk::to_string(result));
+}
+
+Device::Device(const DeviceConfig& config) : state_(std::make_shared<DeviceState>(config)) {}
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+std::vector<std::string> Device::device_names() {
+  const Instance instance(false);
+  std::vector<std::string> names;
+  for (const auto& device : usable_devices(instance)) names.emplace_back(device.getProperties().deviceName.data());
+  return names;
+}
+
+const std::string& Device::name() const {
+  return state_->name;
+}
+const DeviceLimits& Device::limits() const {
+  return state_->limits;
+}
+std::vector<std::string> Device::validation_messages() const {
+  return state_->instance.log.messages();
+}
+
+void Device::save_pipeline_cache() const {
+  if (state_->config.pipeline_cache.empty()) return;
+  const auto data = guarded("reading back the pipeline cache", [&] { return state_->cache.getData(); });
+  write_pipeline_cache(state_->config.pipeline_cache, data);
+}
+
+std::vector<StageTime> Device::run(Commands& commands) {
+  if (commands.state()->device != state_) throw std::invalid_argument("these commands were made for another device");
+  return guarded("running commands on " + state_->name, [&] {
+    commands.state()->finish();
+    state_->submit(commands.state()->commands);
+    return commands.state()->times();
+  });
+}
+
+}  // namespace render::vk

@@ -1,0 +1,190 @@
+// What the ray-transfer matrix must satisfy for every kind of surface: symplectic, V symmetric, equal to the
+// derivative of real rays; and that light's path can be walked backwards.
+#include <gtest/gtest.h>
+
+#include "tests/support/lens_images.hpp"
+#include "tests/support/random_lens.hpp"
+#include "tests/support/sight.hpp"
+
+namespace {
+
+using support::Random;
+using support::Sight;
+namespace f64 = lenses::f64;
+
+constexpr std::uint64_t kSeed = 20120507;
+
+// One pair of surface kinds a test instance: front, back.
+class RayTransferProperty : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
+ protected:
+  RayTransferProperty() : random_(kSeed + 100 * std::get<0>(GetParam()) + std::get<1>(GetParam())) {}
+
+  lenses::TraceRequest next_request() {
+    return ordinary_request(random_, support::ordinary_lens(random_, std::get<0>(GetParam()), std::get<1>(GetParam())));
+  }
+
+  Random random_;
+};
+
+double largest(const glm::dmat2& m) {
+  return std::max({std::abs(m[0][0]), std::abs(m[0][1]), std::abs(m[1][0]), std::abs(m[1][1])});
+}
+
+TEST_P(RayTransferProperty, IsSymplecticAndGivesASymmetricVergence) {
+  int traced = 0;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
+    const Sight sight(next_request());
+    if (!sight.ok() || sight.largest() > 1e3) {
+      continue;
+    }
+    ++traced;
+    const auto& m = sight.transfer;
+    // Rounding of about twenty products of this size.
+    const double rounding = 1e-14 * (1.0 + largest(m.a) * largest(m.d) + largest(m.b) * largest(m.c));
+    const glm::dmat2 ac = glm::transpose(m.a) * m.c;
+    const glm::dmat2 bd = glm::transpose(m.b) * m.d;
+    EXPECT_NEAR(ac[0][1], ac[1][0], rounding * (1.0 + largest(m.a) * largest(m.c)));
+    EXPECT_NEAR(bd[0][1], bd[1][0], rounding);
+    const glm::dmat2 one = glm::transpose(m.a) * m.d - glm::transpose(m.c) * m.b;
+    EXPECT_LE(largest(one - glm::dmat2(1.0)), rounding);
+    // V's own rounding: 1e-14 of its size, more near the pole, where V itself grows.
+    EXPECT_NEAR(sight.record.blur.z, 0.0, 1e-13 * (1.0 + sight.largest() * (1.0 + 0.01 * sight.largest())));
+  }
+  EXPECT_GE(traced, 40);
+}
+
+// How far a real ray passes from the chief ray's object: as a change of its direction, in a basis across it.
+class Aim {
+ public:
+  explicit Aim(const Sight& sight) : sight_(sight) {
+    const glm::dvec3 d = sight.line.direction_object;
+    across_ = glm::normalize(glm::cross(d, glm::dvec3(0.3, 1.0, 0.1)));
+    up_ = glm::cross(across_, d);
+  }
+
+  // NaN for a ray that does not pass the lens.
+  [[nodiscard]] glm::dvec2 miss(const glm::dvec2& offset, const glm::dvec2& momentum) const {
+    const f64::SightLine ray = sight_.beside(offset, momentum);
+    if (ray.status != f64::kStatusOk) {
+      return glm::dvec2(std::nan(""));
+    }
+    const double q = sight_.inverse_distance();
+    // (object - start) q is the chief direction for an object at infinity.
+    const glm::dvec3 to_object = sight_.line.direction_object + q * (sight_.line.start - ray.start);
+    const glm::dvec3 miss = glm::cross(glm::normalize(to_object), ray.direction_object);
+    return {glm::dot(miss, across_), glm::dot(miss, up_)};
+  }
+
+  // The change of direction at the pupil that sends the real ray from `offset` through the object.
+  [[nodiscard]] glm::dvec2 momentum_from(const glm::dvec2& offset) const {
+    constexpr double kStep = 1e-6;
+    glm::dvec2 p(0.0);
+    for (int i = 0; i < 8; ++i) {
+      const glm::dvec2 x(kStep, 0.0);
+      const glm::dvec2 y(0.0, kStep);
+      const glm::dmat2 slope((miss(offset, p + x) - miss(offset, p - x)) / (2.0 * kStep),
+                             (miss(offset, p + y) - miss(offset, p - y)) / (2.0 * kStep));
+      p -= glm::inverse(slope) * miss(offset, p);
+    }
+    return p;
+  }
+
+  // The derivative of that change by the offset: V, by central differences of two widths (Richardson).
+  [[nodiscard]] glm::dmat2 vergence(double h) const {
+    glm::dmat2 v(0.0);
+    for (int axis = 0; axis < 2; ++axis) {
+      const glm::dvec2 step = axis == 0 ? glm::dvec2(h, 0.0) : glm::dvec2(0.0, h);
+      const glm::dvec2 wide = (momentum_from(step) - momentum_from(-step)) / (2.0 * h);
+      const glm::dvec2 narrow = (momentum_from(0.5 * step) - momentum_from(-0.5 * step)) / h;
+      v[axis] = (4.0 * narrow - wide) / 3.0;
+    }
+    return v;
+  }
+
+ private:
+  const Sight& sight_;
+  glm::dvec3 across_{}, up_{};
+};
+
+bool near_a_knot(const Sight& sight, const f64::SurfaceData& surface, const glm::dvec3& hit, double reach) {
+  if (surface.kind.x < f64::kBsplineHeightField) {
+    return false;
+  }
+  // The hessian is continuous across a simple knot but its slope is not: compare it on both sides of the hit.
+  const auto jump = [&](const glm::dvec2& to) {
+    const auto at = [&](double k) {
+      return f64::surface_point(sight.table(), surface, glm::dvec2(hit) + k * to).hessian;
+    };
+    return glm::length(at(1.0) - 2.0 * at(0.0) + at(-1.0)) / glm::length(to) > 2.0;
+  };
+  return jump({reach, 0.0}) || jump({0.0, reach}) || jump({reach, reach}) || jump({reach, -reach});
+}
+
+TEST_P(RayTransferProperty, VergenceIsTheDerivativeOfRealRays) {
+  constexpr double kWidth = 1e-4;
+  int traced = 0;
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
+    const Sight sight(next_request());
+    if (!sight.ok() || sight.largest() > 100.0 || near_a_knot(sight, sight.lens().back, sight.line.path.back_hit, 2.0 * kWidth) ||
+        near_a_knot(sight, sight.lens().front, sight.line.path.front_hit, 2.0 * kWidth)) {
+      continue;
+    }
+    const glm::dmat2 v = Aim(sight).vergence(kWidth);
+    if (std::isnan(v[0][0] + v[1][1])) {
+      continue;  // a neighbour falls off the rim
+    }
+    ++traced;
+    // Rays solved to 1e-15 rad over 1e-4 m give 1e-11 D; the fifth-order remainder stays below 1e-7 D here.
+    const double tolerance = 1e-6;
+    EXPECT_NEAR(v[0][0], sight.result.vergence.x, tolerance);
+    EXPECT_NEAR(v[0][1], sight.result.vergence.y, tolerance);
+    EXPECT_NEAR(v[1][0], sight.result.vergence.y, tolerance);
+    EXPECT_NEAR(v[1][1], sight.result.vergence.z, tolerance);
+  }
+  EXPECT_GE(traced, 15);
+}
+
+// From a point on the object ray, back through the lens mirrored front to back, to the pupil.
+TEST_P(RayTransferProperty, PathsCanBeWalkedBackwards) {
+  int traced = 0;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
+    const lenses::TraceRequest request = next_request();
+    const Sight sight(request);
+    if (!sight.ok()) {
+      continue;
+    }
+    ++traced;
+    lenses::Lens reversed = *request.lens;
+    reversed.front = support::flipped(request.lens->back);
+    reversed.back = support::flipped(request.lens->front);
+    lenses::LensModel model;
+    lenses::append_lens(model, &reversed, request.side, 0.0);
+    const double thickness = reversed.centre_thickness;
+    const auto mirror = [&](const glm::dvec3& p) { return glm::dvec3(p.x, p.y, -thickness - p.z); };
+    const f64::LensPath& path = sight.line.path;
+    const glm::dvec3 beyond = path.front_hit + 0.03 * path.direction_object;
+    const glm::dvec3 back(-path.direction_object.x, -path.direction_object.y, path.direction_object.z);
+    const f64::LensPath home =
+        f64::trace_lens(f64::Table{model.table}, model.lens.front(), mirror(beyond), back);
+    ASSERT_EQ(home.status, f64::kStatusOk);
+    EXPECT_LE(glm::length(home.back_hit - mirror(path.front_hit)), 1e-12);
+    EXPECT_LE(glm::length(home.front_hit - mirror(path.back_hit)), 1e-12);
+    EXPECT_LE(glm::length(home.front_hit + path.t_back * home.direction_object - mirror(path.start)), 1e-12);
+    EXPECT_NEAR(home.t_front, path.t_front, 1e-12);
+  }
+  EXPECT_GE(traced, 40);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    FrontAndBack, RayTransferProperty,
+    testing::Combine(testing::Range<std::size_t>(0, support::kSurfaceKinds),
+                     testing::Range<std::size_t>(0, support::kSurfaceKinds)),
+    [](const auto& instance) {
+      return std::string(support::kSurfaceNames[std::get<0>(instance.param)]) + "_then_" +
+             support::kSurfaceNames[std::get<1>(instance.param)];
+    });
+
+}  // namespace

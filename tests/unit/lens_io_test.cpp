@@ -53,6 +53,11 @@ TEST(LensReader, ScalesEvenCoefficients) {
   const double departure = conic.even_coefficients[0] * std::pow(r, 4) + conic.even_coefficients[1] * std::pow(r, 6);
   EXPECT_NEAR(departure, departure_mm * 1e-3, 1e-14 * departure_mm) << "a few roundings";
   EXPECT_EQ(conic.conic_constant, -1.5);
+  json si = json::parse(kConic);
+  si.erase("even_coefficients_mm");
+  si["even_coefficients"] = {100.0, -2e4};
+  const lenses::Lens in_metres = lenses::parse_lens(lens_with_back(si).dump(), "f.json");
+  EXPECT_EQ(std::get<lenses::Conic>(in_metres.back).even_coefficients, (std::vector{100.0, -2e4}));
 }
 
 TEST(LensReader, ReadsNetsInTheirOrder) {
@@ -133,8 +138,9 @@ TEST(LensReader, NamesTheFieldOfEverySurfaceError) {
   expect_all_refused(kLens, lens_with_back(json::parse(kConic)),
                      {
                          {"/back/conic_constant", "1e5", "back.conic_constant", "from -10000 to 10000"},
-                         {"/back/even_coefficients", "3", "back.even_coefficients", "an array of 0 to 8 numbers"},
-                         {"/back/even_coefficients/1", "2", "back.even_coefficients[1]", "from -1 to 1"},
+                         {"/back/even_coefficients_mm", "3", "back.even_coefficients_mm", "an array of 0 to 8 numbers"},
+                         {"/back/even_coefficients", "[1]", "back.even_coefficients_mm", "only one of the two"},
+                         {"/back/even_coefficients_mm/1", "2", "back.even_coefficients_mm[1]", "from -1 to 1"},
                      });
 }
 

@@ -7,8 +7,11 @@
 #include <iostream>
 #include <map>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/commands.hpp"
+#include "render/vk/device.hpp"
 #include "tracking/input_error.hpp"
 
 namespace {
@@ -22,16 +25,59 @@ int report(std::string message, int status) {
   return status;
 }
 
-// CLI11's "--size: 1 required TEXT missing" and the like, with the option in front.
+// What CLI11 found wrong on the command line, with the option (or the word that is none) in front.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const auto selected = program.get_subcommands();
-  const std::string help =
-      selected.empty() ? "vergence --help" : "vergence " + selected.front()->get_name() + " --help";
-  return std::string(error.what()) + "; see " + help;
+  const std::string command = selected.empty() ? "vergence" : "vergence " + selected.front()->get_name();
+  const std::string help = "; see " + command + " --help";
+  const std::string message = error.what();
+  const std::vector<std::string> rest = program.remaining(true);
+  if (!rest.empty() && (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || selected.empty())) {
+    const bool option = rest.front().starts_with('-');
+    return (rest.front().empty() ? "''" : rest.front()) + ": is not " +
+           (option             ? "an option of " + command
+            : selected.empty() ? "a command"
+                               : "expected; " + command + " takes options only") +
+           help;
+  }
+  if (selected.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    return "COMMAND: is missing; one is needed" + help;
+  }
+  // "Could not convert: --fov = abc"
+  if (const std::size_t equals = message.find(" = ");
+      dynamic_cast<const CLI::ConversionError*>(&error) != nullptr && equals != std::string::npos) {
+    const std::string option = message.substr(message.find('-'), equals - message.find('-'));
+    const CLI::Option* known = selected.empty() ? nullptr : selected.front()->get_option_no_throw(option);
+    const bool whole = known != nullptr && known->get_type_name() != "FLOAT";
+    return option + ": '" + message.substr(equals + 3) + "' is not a " +
+           (whole ? "whole number in its range" : "number") + help;
+  }
+  // "--gaze excludes --look-at"
+  if (const std::size_t excludes = message.find(" excludes "); excludes != std::string::npos) {
+    return message.substr(0, excludes) + ": cannot be given together with " +
+           message.substr(excludes + std::string_view(" excludes ").size()) + help;
+  }
+  return message + help;
+}
+
+// An unset shell variable must not pass for "as by default".
+void refuse_empty_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (std::ranges::count(option->results(), std::string()) > 0) {
+      throw tracking::InputError(option->get_name(), "", "is empty; a value is needed, or leave the option out");
+    }
+  }
+}
+
+// --help and --version, which fail as any output does when nobody can read it.
+int print(const CLI::App& program, const CLI::ParseError& wish) {
+  const int status = program.exit(wish);
+  std::cout.flush();
+  return std::cout ? status : report("standard output: cannot be written", kFailed);
 }
 
 int run(int argc, char** argv) {
-  CLI::App program("Vergence: what each eye sees through its own spectacles. Not a medical device.");
+  CLI::App program("Vergence: what each eye sees through its own spectacles. Not a medical device.", "vergence");
   program.set_version_flag("--version", VERGENCE_VERSION);
   program.require_subcommand(1);
   program.footer("Exit status: 0 done, 1 failed at run time (GPU, disk), 2 bad input or usage.\n"
@@ -42,13 +88,15 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
-    return program.exit(help);
+    return print(program, help);
   } catch (const CLI::CallForVersion& version) {
-    return program.exit(version);
+    return print(program, version);
   } catch (const CLI::ParseError& error) {
     return report(usage_message(program, error), kBadInput);
   }
-  return actions.at(program.get_subcommands().front()->get_name())();
+  const CLI::App& command = *program.get_subcommands().front();
+  refuse_empty_values(command);
+  return actions.at(command.get_name())();
 }
 
 }  // namespace
@@ -59,6 +107,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const tracking::InputError& error) {
     return report(error.what(), kBadInput);
+  } catch (const render::vk::DeviceError& error) {
+    return report(std::string("--device: ") + error.what(), kFailed);
   } catch (const std::bad_alloc&) {
     return report("memory: not enough for this input", kFailed);
   } catch (const std::exception& error) {

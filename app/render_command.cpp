@@ -53,18 +53,26 @@ constexpr int kMostSamples = 65536, kDefaultSamples = 64, kSamplesForTarget = 40
 
 bool is_exr(const std::string& output) { return std::filesystem::path(output).extension() == ".exr"; }
 
+// Said before minutes of work rather than after.
+void check_place(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw render::OutputError(file, "", "cannot be written: there is no folder " + folder.string());
+  }
+  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(file)) {
+    throw render::OutputError(file, "", "cannot be written: a file in a writable folder is expected");
+  }
+}
+
 void check_options(const RenderOptions& options) {
   const auto extension = std::filesystem::path(options.output).extension();
   if (extension != ".png" && extension != ".exr") {
     throw InputError("--output", "", "'" + options.output + "' must end in .png or .exr");
   }
-  const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
-  // Said before minutes of work rather than after.
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw render::OutputError(options.output, "", "cannot be written: there is no folder " + folder.string());
-  }
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(options.output)) {
-    throw render::OutputError(options.output, "", "cannot be written: a file in a writable folder is expected");
+  check_place(options.output);
+  if (!options.timings.empty()) {
+    check_place(options.timings);
+    check_timings(options.timings);
   }
   if (options.channels == "all" && !is_exr(options.output)) {
     throw InputError("--channels", "", "all needs an .exr --output; a .png holds the picture only");
@@ -149,12 +157,19 @@ int render_picture(const RenderOptions& options) {
   render::Renderer renderer(device, scene);
   render::RenderedFrame frame;
   std::vector<std::vector<render::vk::StageTime>> runs;
+  const auto draw = [&](const render::Progress& progress) {
+    try {
+      return renderer.render(setup.lenses, setup.views, config, progress);
+    } catch (const render::vk::DeviceError& error) {
+      throw render::vk::DeviceError("rendering " + options.scene.size + " pixels: " + error.what());
+    }
+  };
   if (options.repeat > 1) {
     // The first frame also pays for compiling; it is not timed.
-    static_cast<void>(renderer.render(setup.lenses, setup.views, config));
+    static_cast<void>(draw({}));
   }
   for (int i = 0; i < options.repeat; ++i) {
-    frame = renderer.render(setup.lenses, setup.views, config, progress_bar(config.mode == Mode::dof));
+    frame = draw(progress_bar(config.mode == Mode::dof));
     runs.push_back(frame.stages);
   }
   close_device(device);

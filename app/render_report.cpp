@@ -60,6 +60,19 @@ SightRow sight_row(const RenderSetup& setup, const WornPair& pair, std::size_t s
   return row;
 }
 
+// The table so far, or the header of a new one.
+std::string read_timings(const std::string& file) {
+  std::ifstream old(file, std::ios::binary);
+  if (!old) {
+    return std::string(kTimingsHeader) + "\n";
+  }
+  std::string text(std::istreambuf_iterator<char>(old), {});
+  if (!text.starts_with(kTimingsHeader)) {
+    throw tracking::InputError(file, "", "is not a timing table of vergence; name another file or move it away");
+  }
+  return text;
+}
+
 std::string fixed_number(double value, int digits, int width) {
   std::ostringstream text;
   text << std::setw(width) << std::fixed << std::setprecision(digits) << value;
@@ -166,19 +179,14 @@ std::string to_json(const RenderReport& report) {
   for (const StageRow& row : report.stages) {
     j["stages_ms"][row.stage] = {{"median", row.median_ms}, {"min", row.min_ms}, {"max", row.max_ms}};
   }
-  return j.dump(2) + "\n";
+  // A file's name may be bytes that are not UTF-8.
+  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+void check_timings(const std::string& file) { static_cast<void>(read_timings(file)); }
+
 void append_timings(const std::string& file, const RenderReport& report) {
-  std::string text;
-  if (std::ifstream old(file, std::ios::binary); old) {
-    text.assign(std::istreambuf_iterator<char>(old), {});
-    if (!text.starts_with(kTimingsHeader)) {
-      throw tracking::InputError(file, "", "is not a timing table of vergence; name another file or move it away");
-    }
-  } else {
-    text = std::string(kTimingsHeader) + "\n";
-  }
+  std::string text = read_timings(file);
   std::ostringstream rows;
   for (const StageRow& row : report.stages) {
     rows << quoted(report.output) << ',' << report.mode << ',' << report.width << ',' << report.height << ','

@@ -48,6 +48,9 @@ struct RenderReport {
 [[nodiscard]] std::string to_table(const RenderReport& report);
 [[nodiscard]] std::string to_json(const RenderReport& report);
 
+// Throws tracking::InputError if the file holds anything but such a table.
+void check_timings(const std::string& file);
+
 // Adds this picture's stages to a CSV file (made with a header if absent), all or nothing.
 void append_timings(const std::string& file, const RenderReport& report);
 

@@ -26,7 +26,7 @@ constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32;
 
 constexpr std::array kSceneBindings{
     vk::Binding::texel_rgba32f,  vk::Binding::texel_rgba32ui, vk::Binding::texel_rgba32f, vk::Binding::texel_rgba32f,
-    vk::Binding::texel_r32ui,    vk::Binding::storage_buffer, vk::Binding::storage_buffer, vk::Binding::storage_buffer,
+    vk::Binding::texel_r32ui,    vk::Binding::uniform_buffer, vk::Binding::uniform_buffer, vk::Binding::storage_buffer,
     vk::Binding::storage_buffer, vk::Binding::storage_buffer};
 
 std::vector<vk::Binding> scene_and(int storage_buffers) {
@@ -251,6 +251,7 @@ RenderedFrame Renderer::State::render_together(const lenses::LensModel& lenses, 
     view_data.push_back(make_view_data(view, lenses));
     worn.push_back(lenses.lens[view.lens]);
   }
+  view_data.resize(gpu::kMostViews);  // a uniform buffer has its full size
   const vk::Buffer view_buffer = filled_buffer(device, view_data);
   const std::uint32_t kinds = surface_kinds(worn);
   const auto scene_buffers = [&](std::initializer_list<const vk::Buffer*> more) {

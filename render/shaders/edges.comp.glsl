@@ -41,10 +41,10 @@ void main() {
   uvec4 pixel = pixels[at];
   float depth = uintBitsToFloat(pixel.w);
   bool edge = false;
-  for (int k = 0; k < 8; ++k) {
-    int n = k < 4 ? k : k + 1;  // the eight neighbours
-    ivec2 q = clamp(p + ivec2(n % 3 - 1, n / 3 - 1), ivec2(0), size - 1);
-    edge = edge || differs(key, depth, base + q.y * size.x + q.x);
+  // Two pixels around, because a stroke thinner than a pixel may hide between the centres of the nearest ones.
+  for (int k = 0; k < 25 && !edge; ++k) {
+    ivec2 q = clamp(p + ivec2(k % 5 - 2, k / 5 - 2), ivec2(0), size - 1);
+    edge = differs(key, depth, base + q.y * size.x + q.x);
   }
   if (!edge) {
     return;

@@ -1,6 +1,8 @@
 // What the host hands to the kernels that trace: views, lights, materials. Included after lenses/gpu/optics.h, in C++
 // inside namespace render::gpu. Only vec4 and ivec4 members, so that std430 and C++ agree without padding.
 
+const int kMostViews = 4;  // two eyes, two pairs
+
 // One view: an eye, its lens, its picture and where it stands in the world.
 struct ViewData {
   LensData lens;

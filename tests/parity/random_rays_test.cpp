@@ -35,7 +35,14 @@ lenses::TraceBatch absurd_batch(std::uint64_t seed) {
     for (std::size_t k = 0; k < kRaysALens; ++k) {
       lenses::f64::TraceInput ray = first;
       const double q = random.chance(0.2) ? 0.0 : 1.0 / support::absurd_distance(random);
-      ray.direction = glm::dvec4(support::absurd_direction(random), q);
+      glm::dvec3 direction = support::absurd_direction(random);
+      if (request.lens && random.chance(0.5)) {  // at the lens
+        const double reach = 0.6 * request.lens->diameter;
+        const glm::dvec3 point = lenses::f64::from_lens_point(
+            batch.model.lens.back(), {random.uniform(-reach, reach), random.uniform(-reach, reach), 0.0});
+        direction = glm::length(point) > 0.0 ? glm::normalize(point) : direction;
+      }
+      ray.direction = glm::dvec4(direction, q);
       ray.gaze = glm::dvec4(support::absurd_direction(random), 0.0);
       ray.which.z = static_cast<int>(random.pick(3));
       batch.rays.push_back(ray);
@@ -92,11 +99,13 @@ TEST(RandomRays, GiveFiniteOutputsWhateverTheLens) {
   EXPECT_EQ(reference.bad, 0U);
   EXPECT_EQ(gpu.bad, 0U);
   for (std::size_t s = 0; s < 6; ++s) {
+    // Every outcome is met, or the rays test nothing (singular takes an exact image in the pupil).
+    if (s != lenses::f64::kStatusSingular) {
+      EXPECT_GE(reference.status[s], 1000U);
+      EXPECT_GE(gpu.status[s], 1000U);
+    }
     std::cout << lenses::name(static_cast<lenses::RayStatus>(s)) << ": reference " << reference.status[s] << ", gpu "
               << gpu.status[s] << "\n";
-    // Every outcome is met, or the rays test nothing.
-    EXPECT_GE(reference.status[s], s == 5 ? 1U : 1000U);
-    EXPECT_GE(gpu.status[s], s == 5 ? 1U : 1000U);
   }
 }
 
@@ -108,7 +117,7 @@ TEST(RandomRays, AgreeOnLensesThatCouldBeWorn) {
   for (int i = 0; i < 300; ++i) {
     const lenses::Lens lens = support::ordinary_lens(random);
     for (int k = 0; k < 200; ++k) {
-      lenses::append_request(batch, support::ordinary_request(random, lens));
+      lenses::append_request(batch, support::ordinary_request(random, lens, 65.0 * support::kRadians));
     }
   }
   render::vk::Device device;

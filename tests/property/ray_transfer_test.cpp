@@ -32,7 +32,7 @@ double largest(const glm::dmat2& m) {
 
 TEST_P(RayTransferProperty, IsSymplecticAndGivesASymmetricVergence) {
   int traced = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
     const Sight sight(next_request());
     if (!sight.ok() || sight.largest() > 1e3) {
@@ -51,7 +51,7 @@ TEST_P(RayTransferProperty, IsSymplecticAndGivesASymmetricVergence) {
     // V's own rounding: 1e-14 of its size, more near the pole, where V itself grows.
     EXPECT_NEAR(sight.record.blur.z, 0.0, 1e-13 * (1.0 + sight.largest() * (1.0 + 0.01 * sight.largest())));
   }
-  EXPECT_GE(traced, 40);
+  EXPECT_GE(traced, 30);
 }
 
 // How far a real ray passes from the chief ray's object: as a change of its direction, in a basis across it.
@@ -114,7 +114,7 @@ class Aim {
 
 TEST_P(RayTransferProperty, VergenceIsTheDerivativeOfRealRays) {
   int sharp = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 40; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
     const Sight sight(next_request());
     if (!sight.ok() || sight.largest() > 100.0) {
@@ -133,13 +133,13 @@ TEST_P(RayTransferProperty, VergenceIsTheDerivativeOfRealRays) {
     EXPECT_NEAR(v.value[1][0], sight.result.vergence.y, tolerance);
     EXPECT_NEAR(v.value[1][1], sight.result.vergence.z, tolerance);
   }
-  EXPECT_GE(sharp, 15);
+  EXPECT_GE(sharp, 12);
 }
 
 // From a point on the object ray, back through the lens mirrored front to back, to the pupil.
 TEST_P(RayTransferProperty, PathsCanBeWalkedBackwards) {
   int traced = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", lens " << i);
     const lenses::TraceRequest request = next_request();
     const Sight sight(request);
@@ -165,7 +165,7 @@ TEST_P(RayTransferProperty, PathsCanBeWalkedBackwards) {
     EXPECT_LE(glm::length(home.front_hit + path.t_back * home.direction_object - mirror(path.start)), 1e-12);
     EXPECT_NEAR(home.t_front, path.t_front, 1e-12);
   }
-  EXPECT_GE(traced, 40);
+  EXPECT_GE(traced, 30);
 }
 
 INSTANTIATE_TEST_SUITE_P(

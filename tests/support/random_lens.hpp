@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -143,7 +144,7 @@ inline lenses::Surface ordinary_surface(Random& random, std::size_t kind, double
                           wavy_sphere(random, curvature));
     }
     case 5: {
-      const std::size_t cells = 8 + random.pick(4);
+      const std::size_t cells = 5 + random.pick(3);
       const auto knots = even_knots(-1.0, 1.0, cells, random.chance(0.5));
       return parametric_field(knots, knots, half, 0.08, wavy_sphere(random, curvature));
     }
@@ -176,13 +177,13 @@ inline lenses::Lens ordinary_lens(Random& random) {
   return ordinary_lens(random, random.pick(kSurfaceKinds), random.pick(kSurfaceKinds));
 }
 
-inline lenses::TraceRequest ordinary_request(Random& random, const lenses::Lens& lens) {
+inline lenses::TraceRequest ordinary_request(Random& random, const lenses::Lens& lens, double widest = 35.0 * kRadians) {
   using Viewing = lenses::TraceRequest::Viewing;
   lenses::TraceRequest request;
   request.lens = lens;
   request.side = random.chance(0.5) ? lenses::Side::right : lenses::Side::left;
   request.viewing = std::array{Viewing::fixed, Viewing::scanning, Viewing::gaze}[random.pick(3)];
-  request.direction = random.direction_ahead(35.0 * kRadians);
+  request.direction = random.direction_ahead(widest);
   request.gaze = random.direction_ahead(25.0 * kRadians);
   if (random.chance(0.6)) {
     request.object_distance = random.log_uniform(0.15, 100.0);

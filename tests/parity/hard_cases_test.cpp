@@ -1,0 +1,451 @@
+// The cases that broke programs of this kind, on both engines. What each is held to is a closed form, Coddington's
+// equations, a conic of the same shape, or the same lens written differently.
+//
+// Traced cases of tests/data hold others (the name is the case's id):
+//   plano surfaces hard_plate_*, hard_plano_front_minus6     torus r -> R, tyre, barrel hard_torus_*
+//   knot lines, double knots hard_bs_knot_*, hard_bs_c1_*    contact lens hard_contact_*, sem_contact_turning_*
+//   inverted hard_inverted_edge                              total reflection hard_tir_*, hard_just_tir_*
+//   misses and rims hard_miss_*, sem_miss_rim_*              umbilics, 45 degrees hard_axis_umbilic_*, hard_cos2theta_*
+//   foci hard_focus_*                                        object at the focus hard_object_at_focus
+//   n 1.9 hard_n19_oblique40                                 aplanatic points hard_aplanatic_*
+// Rays that run along an axis, and rays that start on a triangle, belong to the scene's traversal: bvh_test.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/both_engines.hpp"
+#include "tests/support/coddington.hpp"
+#include "tests/support/de_boor.hpp"
+#include "tracking/input_error.hpp"
+
+namespace {
+
+using lenses::RayStatus;
+using lenses::Torus;
+using lenses::TraceRequest;
+using support::even_knots;
+using support::kRadians;
+
+class HardCase : public support::BothEngines {
+ protected:
+  // 13 mm vertex distance, the pupil 16.05 mm behind the back vertex.
+  static TraceRequest through(const lenses::Surface& front, const lenses::Surface& back, double thickness_mm = 3.0) {
+    TraceRequest request;
+    request.lens.emplace();
+    request.lens->index = 1.5;
+    request.lens->front = front;
+    request.lens->back = back;
+    request.lens->centre_thickness = 1e-3 * thickness_mm;
+    request.lens->diameter = 0.07;
+    return request;
+  }
+  static TraceRequest toward(TraceRequest request, double right_deg, double up_deg) {
+    request.direction = tracking::direction_from_yaw_pitch(right_deg * kRadians, up_deg * kRadians);
+    return request;
+  }
+  // A ray parallel to the lens's axis that meets the back at (x, y).
+  static TraceRequest parallel(TraceRequest request, double x_mm, double y_mm) {
+    request.lens->fit.decentration = {-1e-3 * x_mm, -1e-3 * y_mm};
+    return request;
+  }
+  // Thick lens on its axis.
+  static double axial_vergence(const TraceRequest& request, double front_curvature, double back_curvature) {
+    const double n = request.lens->index;
+    const double q = request.object_distance ? 1.0 / *request.object_distance : 0.0;
+    const double after_front = (n - 1.0) * front_curvature - q;
+    const double at_back = after_front / (1.0 - request.lens->centre_thickness / n * after_front);
+    const double vertex = at_back + (1.0 - n) * back_curvature;
+    return vertex / (1.0 - (request.lens->fit.vertex_distance + request.eye.entrance_pupil_depth) * vertex);
+  }
+  static void expect_axial(const TraceRequest& request, double front_curvature, double back_curvature) {
+    const double v = axial_vergence(request, front_curvature, back_curvature);
+    expect_vergence(trace(request), {v, 0.0, v});
+  }
+  static void expect_coddington(const TraceRequest& request, double up_deg) {
+    const lenses::Lens& lens = *request.lens;
+    const auto v = support::coddington_vergence(
+        {lens.index, lens.centre_thickness, std::get<lenses::Sphere>(lens.front).curvature,
+         std::get<lenses::Sphere>(lens.back).curvature, lens.fit.vertex_distance + request.eye.entrance_pupil_depth},
+        up_deg * kRadians, request.object_distance ? 1.0 / *request.object_distance : 0.0);
+    expect_vergence(trace(toward(request, 0.0, up_deg)), {v.sagittal, 0.0, v.tangential});
+  }
+};
+
+TEST_P(HardCase, PlanoSurfacesAndRadiiOfAThousandKilometres) {
+  for (const double up : {0.0, 10.0, 40.0}) {
+    const auto flat = trace(toward(through(lenses::Plane{}, lenses::Plane{}), 5.0, up));
+    expect_vergence(flat, glm::dvec3(0.0));
+    EXPECT_LE(flat.deviation, is_reference() ? 1e-15 : 1e-6);
+    for (const double c : {1e-6, -1e-6}) {
+      const auto almost = trace(toward(through(lenses::Sphere{c}, lenses::Torus{c, -c}), 5.0, up));
+      ASSERT_EQ(almost.status, RayStatus::ok);
+      EXPECT_LE(glm::length(almost.vergence), is_reference() ? 1e-5 : 1e-3);
+      EXPECT_LE(glm::length(almost.front_hit - flat.front_hit), is_reference() ? 1e-8 : 1e-7);
+    }
+  }
+}
+
+TEST_P(HardCase, CylindersHaveOneFlatMeridian) {
+  for (const auto revolve : {Torus::Revolve::u, Torus::Revolve::v}) {
+    const auto request = through(Torus{0.0, 8.0, 0.0, revolve}, lenses::Plane{});
+    expect_vergence(trace(request), {0.0, 0.0, axial_vergence(request, 8.0, 0.0)});
+  }
+  // Revolved or drawn out, it is one cylinder.
+  expect_same(trace(toward(through(Torus{0.0, 8.0, 0.5, Torus::Revolve::u}, lenses::Sphere{5.0}), 25.0, -20.0)),
+              trace(toward(through(Torus{0.0, 8.0, 0.5, Torus::Revolve::v}, lenses::Sphere{5.0}), 25.0, -20.0)));
+}
+
+TEST_P(HardCase, TorusOfEqualRadiiIsASphere) {
+  for (const double c : {-12.0, 12.0, 25.0}) {
+    for (const double apart : {0.0, 1e-15, -1e-13, 1e-11}) {
+      for (const auto revolve : {Torus::Revolve::u, Torus::Revolve::v}) {
+        expect_same(trace(toward(through(Torus{c, c * (1.0 + apart), 0.7, revolve}, lenses::Sphere{2.0}), 15.0, 10.0)),
+                    trace(toward(through(lenses::Sphere{c}, lenses::Sphere{2.0}), 15.0, 10.0)));
+      }
+    }
+  }
+}
+
+// The paper's r -> R: the circle's centre comes to lie on the axis of revolution's far rim.
+TEST_P(HardCase, TorusPassesSmoothlyFromRingToSpindle) {
+  const auto at = [](double ratio) {
+    return trace(toward(through(Torus{12.0 * ratio, 12.0, 0.3}, lenses::Sphere{3.0}), 15.0, -12.0));
+  };
+  const auto horn = at(0.5);
+  ASSERT_EQ(horn.status, RayStatus::ok);
+  // 1e-6 of the curvature moves V by about 1e-5 D.
+  for (const double ratio : {0.5 - 1e-6, 0.5 + 1e-6}) {
+    const auto near = at(ratio);
+    ASSERT_EQ(near.status, RayStatus::ok);
+    EXPECT_LE(glm::length(near.vergence - horn.vergence), is_reference() ? 2e-5 : 1e-3);
+  }
+}
+
+TEST_P(HardCase, NegativeRevolveRadiusIsASaddle) {
+  for (const auto revolve : {Torus::Revolve::u, Torus::Revolve::v}) {
+    const auto request = through(Torus{-9.0, 7.0, 0.0, revolve}, lenses::Plane{});
+    expect_vergence(trace(request), {axial_vergence(request, -9.0, 0.0), 0.0, axial_vergence(request, 7.0, 0.0)});
+  }
+}
+
+TEST_P(HardCase, TorusHasNoFarSide) {
+  // Revolved at 20 mm, profile 40 mm: beyond u = 20 mm there is nothing but the ring's far side.
+  const Torus ring{50.0, 25.0, 0.0, Torus::Revolve::u};
+  EXPECT_EQ(trace(parallel(through(lenses::Plane{}, ring, 25.0), 20.5, 0.0)).status, RayStatus::miss_back);
+  const auto hit = trace(parallel(through(lenses::Plane{}, ring, 25.0), 12.0, 9.0));
+  ASSERT_EQ(hit.status, RayStatus::ok);
+  const double profile = (1.0 - std::sqrt(1.0 - 25.0 * 25.0 * 0.009 * 0.009)) / 25.0;
+  const double sag = 0.02 - std::sqrt((0.02 - profile) * (0.02 - profile) - 0.012 * 0.012);
+  EXPECT_NEAR(hit.back_hit.z, sag - 0.01605, metres());
+  // The sphere's far half is as little there.
+  EXPECT_EQ(trace(parallel(through(lenses::Plane{}, lenses::Sphere{50.0}, 25.0), 20.5, 0.0)).status,
+            RayStatus::miss_back);
+}
+
+TEST_P(HardCase, HighIncidenceTakesTheNearRoot) {
+  for (const double up : {30.0, 50.0, 65.0}) {
+    for (const double c : {-15.0, -4.0, 4.0, 15.0, 40.0}) {
+      const auto result = trace(toward(through(lenses::Sphere{c}, lenses::Sphere{c}, 1.0), 0.0, up));
+      if (result.status == RayStatus::miss_back) {
+        continue;
+      }
+      // The first crossing of the ray and the vertex's half, by long division along the ray.
+      const glm::dvec3 d = tracking::direction_from_yaw_pitch(0.0, up * kRadians);
+      const double b = c * 0.01605 * d.z - d.z;
+      const double k = (c * 0.01605 - 2.0) * 0.01605;
+      const double t = -k / (b + std::sqrt(b * b - c * k));
+      if (result.status == RayStatus::ok) {
+        EXPECT_LE(glm::length(result.back_hit - t * d), metres()) << up << " " << c;
+      }
+      EXPECT_LE(c * (t * d.z + 0.01605), 1.0) << up << " " << c;
+    }
+  }
+}
+
+// A spline that equals a paraboloid against the conic of the same shape.
+TEST_P(HardCase, SplinesMatchTheConicAtEveryIncidence) {
+  const auto knots = even_knots(-0.06, 0.06, 9, true);
+  for (const double c : {-8.0, 6.0, 14.0}) {
+    std::vector<TraceRequest> conic, heights, patch;
+    for (const double right : {-60.0, -35.0, -11.0, 0.0, 7.0, 25.0, 50.0, 60.0}) {
+      for (const double up : {-50.0, -10.0, 0.0, 12.0, 45.0}) {
+        conic.push_back(toward(through(lenses::Sphere{2.0}, lenses::Conic{c, -1.0, {}}), right, up));
+        heights.push_back(conic.back());
+        heights.back().lens->back = support::paraboloid(knots, knots, c);
+        patch.push_back(conic.back());
+        patch.back().lens->back = support::parametric_paraboloid(knots, knots, c);
+      }
+    }
+    const auto expected = trace(conic);
+    const auto by_heights = trace(heights);
+    const auto by_patch = trace(patch);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << "curvature " << c << ", ray " << i);
+      expect_same(by_heights[i], expected[i]);
+      expect_same(by_patch[i], expected[i]);
+    }
+  }
+}
+
+// Waves steep enough that Newton's steps from the base sphere jump to and fro: the hit is on the spline, and no
+// crossing comes before it.
+TEST_P(HardCase, SplineHitsAreTheFirstCrossing) {
+  const auto knots = even_knots(-0.05, 0.05, 24, false);
+  const auto wave = support::height_field(knots, knots, [](double x, double y) {
+    return 1.2e-3 * std::sin(420.0 * x) * std::cos(300.0 * y) + 3.0 * (x * x + y * y);
+  });
+  int hits = 0;
+  for (const double up : {5.0, 20.0, 40.0, 50.0, 60.0, 64.0}) {
+    for (const double right : {-17.0, 0.0, 9.0, 30.0}) {
+      auto request = toward(through(lenses::Plane{}, wave, 20.0), right, up);
+      const auto result = trace(request);
+      if (result.status != RayStatus::ok) {
+        continue;
+      }
+      ++hits;
+      const double t = glm::length(result.back_hit);
+      const glm::dvec3 d = glm::normalize(request.direction);
+      const auto above = [&](double along) {
+        return along * d.z + 0.01605 - support::height_at(wave, along * d.x, along * d.y);
+      };
+      EXPECT_NEAR(above(t), 0.0, is_reference() ? 1e-12 : 2e-7) << up << " " << right;
+      for (int i = 0; i < 2000; ++i) {
+        ASSERT_GT(above((t - 1e-5) * i / 2000.0), 0.0) << up << " " << right << ": an earlier crossing";
+      }
+    }
+  }
+  EXPECT_GE(hits, 10);
+}
+
+TEST_P(HardCase, StartOutsideThePatch) {
+  // The pupil stands 30 mm beside a patch of +-20 mm.
+  const auto knots = even_knots(-0.02, 0.02, 5, true);
+  for (const double right : {-70.0, -62.0, -50.0}) {
+    auto conic = toward(parallel(through(lenses::Plane{}, lenses::Conic{5.0, -1.0, {}}, 8.0), 30.0, 0.0), right, 3.0);
+    conic.lens->diameter = 0.035;  // within the patch
+    auto spline = conic;
+    spline.lens->back = support::paraboloid(knots, knots, 5.0);
+    auto patch = conic;
+    patch.lens->back = support::parametric_paraboloid(knots, knots, 5.0);
+    const auto expected = trace(conic);
+    expect_same(trace(spline), expected);
+    expect_same(trace(patch), expected);
+  }
+}
+
+TEST_P(HardCase, HitsOnKnotLinesAndRepeatedKnots) {
+  const std::vector<double> doubled{-0.05, -0.05, -0.05, -0.05, -0.01, -0.01, 0.0, 0.0, 0.0, 0.012, 0.05, 0.05, 0.05, 0.05};
+  const auto plain = even_knots(-0.05, 0.05, 10, false);
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{
+           {0.0, 0.0}, {0.0, 7.0}, {-10.0, 0.0}, {-10.0, 10.0}, {12.0, -10.0}, {10.0, 3.3}, {20.0, 20.0}}) {
+    const auto expected = trace(parallel(through(lenses::Sphere{3.0}, lenses::Conic{9.0, -1.0, {}}, 4.0), x, y));
+    for (const auto* knots : {&doubled, &plain}) {
+      SCOPED_TRACE(testing::Message() << x << ", " << y << " mm" << (knots == &doubled ? ", repeated knots" : ""));
+      expect_same(trace(parallel(through(lenses::Sphere{3.0}, support::paraboloid(*knots, plain, 9.0), 4.0), x, y)), expected);
+      expect_same(trace(parallel(through(lenses::Sphere{3.0}, support::parametric_paraboloid(plain, *knots, 9.0), 4.0), x, y)),
+                  expected);
+    }
+  }
+}
+
+TEST_P(HardCase, PatchBorders) {
+  const auto knots = even_knots(-0.02, 0.02, 4, true);
+  const auto patch = support::paraboloid(knots, knots, 4.0);
+  const auto at = [&](double x_mm, double y_mm) {
+    return trace(parallel(through(lenses::Plane{}, patch, 4.0), x_mm, y_mm)).status;
+  };
+  for (const double y : {0.0, 20.0 - 1e-3, 10.0}) {
+    EXPECT_EQ(at(20.0 - 1e-3, y), RayStatus::ok);
+    EXPECT_EQ(at(20.0 + 1e-3, y), RayStatus::miss_back);
+    const auto border = at(20.0, y);
+    EXPECT_TRUE(border == RayStatus::ok || border == RayStatus::miss_back);
+  }
+}
+
+TEST_P(HardCase, ContactLensOnTheCornea) {
+  // 0.1 mm, 8.6 mm radius, no vertex distance; with the pupil on the back surface as well.
+  for (const double depth : {0.00305, 0.0}) {
+    for (const double front_radius : {8.0e-3, 8.6e-3, 9.5e-3}) {
+      auto request = through(lenses::Sphere{1.0 / front_radius}, lenses::Sphere{1.0 / 8.6e-3}, 0.1);
+      request.lens->fit.vertex_distance = 0.0;
+      request.lens->diameter = 0.0142;
+      request.lens->attached_to = lenses::Lens::AttachedTo::eye;
+      request.eye.entrance_pupil_depth = depth;
+      expect_axial(request, 1.0 / front_radius, 1.0 / 8.6e-3);
+      for (const double up : {-30.0, 8.0, 20.0}) {
+        expect_coddington(request, up);
+      }
+    }
+  }
+}
+
+TEST_P(HardCase, KissingSurfacesAtTheEdge) {
+  // Two paraboloids that meet 20 mm from the axis: 0.5 * 10 * 0.02^2 = 2 mm.
+  const auto lens = through(lenses::Conic{10.0, -1.0, {}}, lenses::Plane{}, 2.0);
+  EXPECT_EQ(trace(parallel(lens, 19.99, 0.0)).status, RayStatus::ok);
+  EXPECT_EQ(trace(parallel(lens, 20.01, 0.0)).status, RayStatus::inverted);
+  const auto edge = trace(parallel(lens, 20.0, 0.0)).status;
+  EXPECT_TRUE(edge == RayStatus::ok || edge == RayStatus::inverted || edge == RayStatus::miss_front);
+  // No thickness at all, the same surface twice.
+  EXPECT_EQ(trace(through(lenses::Sphere{5.0}, lenses::Sphere{5.0}, 0.0)).status, RayStatus::inverted);
+}
+
+TEST_P(HardCase, CrossedSurfacesAreInverted) {
+  EXPECT_EQ(trace(parallel(through(lenses::Sphere{15.0}, lenses::Sphere{2.0}, 0.5), 15.0, 0.0)).status,
+            RayStatus::inverted);
+  const auto knots = even_knots(-0.05, 0.05, 6, true);
+  EXPECT_EQ(
+      trace(parallel(through(support::paraboloid(knots, knots, 15.0), lenses::Sphere{2.0}, 0.5), 15.0, 3.0)).status,
+      RayStatus::inverted);
+}
+
+TEST_P(HardCase, TotalInternalReflection) {
+  // Parallel to the axis through a plane back: the front's critical angle is reached where n y c = 1, at 13.33 mm.
+  const auto lens = through(lenses::Sphere{50.0}, lenses::Plane{}, 10.0);
+  EXPECT_EQ(trace(parallel(lens, 0.0, 13.3)).status, RayStatus::ok);
+  EXPECT_EQ(trace(parallel(lens, 0.0, 13.36)).status, RayStatus::tir_front);
+}
+
+TEST_P(HardCase, MissesAndRims) {
+  auto lens = through(lenses::Sphere{-6.0}, lenses::Sphere{0.0}, 4.0);
+  lens.lens->diameter = 0.04;
+  EXPECT_EQ(trace(parallel(lens, 19.999, 0.0)).status, RayStatus::ok);
+  EXPECT_EQ(trace(parallel(lens, 20.001, 0.0)).status, RayStatus::miss_back);
+  EXPECT_EQ(trace(toward(lens, 0.0, 90.0)).status, RayStatus::miss_back);
+  auto behind = lens;
+  behind.direction = {0.0, 0.0, 1.0};
+  EXPECT_EQ(trace(behind).status, RayStatus::miss_back);
+  // In through the back near the rim, out through the edge.
+  EXPECT_EQ(trace(toward(lens, 0.0, 50.9)).status, RayStatus::miss_front);
+}
+
+TEST_P(HardCase, UmbilicsAnd45Degrees) {
+  const auto umbilic = trace(through(lenses::Sphere{8.0}, lenses::Sphere{3.0}));
+  ASSERT_EQ(umbilic.status, RayStatus::ok);
+  EXPECT_LE(umbilic.astigmatism, is_reference() ? 1e-12 : 1e-4);
+  if (is_reference()) {
+    EXPECT_FALSE(umbilic.axis_deg.has_value());
+  }
+  const auto request = through(Torus{9.0, 5.0, 45.0 * kRadians}, lenses::Sphere{4.0});
+  const double along = axial_vergence(request, 9.0, 4.0);
+  const double across = axial_vergence(request, 5.0, 4.0);
+  const auto oblique = trace(request);
+  expect_vergence(oblique, {0.5 * (along + across), 0.5 * (along - across), 0.5 * (along + across)});
+  EXPECT_NEAR(oblique.axis_deg.value_or(-1.0), 45.0, is_reference() ? 1e-10 : 1e-2);
+}
+
+TEST_P(HardCase, FociInGlassAndBetweenLensAndEye) {
+  // (n - 1) c = 400 D: n / 400 = 3.75 mm behind the front, inside 8 mm of glass.
+  auto in_glass = through(lenses::Sphere{800.0}, lenses::Plane{}, 8.0);
+  in_glass.lens->diameter = 0.002;
+  expect_axial(in_glass, 800.0, 0.0);
+  // 80 D: between the lens and the eye. 61 and 64 D: just before and behind the pupil.
+  for (const double c : {160.0, 122.0, 128.0, 60.0}) {
+    auto between = through(lenses::Sphere{c}, lenses::Plane{}, 1.0);
+    between.lens->diameter = 0.006;
+    expect_axial(between, c, 0.0);
+  }
+}
+
+TEST_P(HardCase, ObjectImagedIntoThePupilIsSingular) {
+  // Pupil, 16 mm of air, a plane back, no glass to speak of but the front's 125 D: 1/q is where 1/0.016 - 125 ends.
+  auto request = through(lenses::Sphere{250.0}, lenses::Plane{}, 0.0);
+  request.lens->diameter = 0.002;
+  request.lens->centre_thickness = 1.5 / 1024.0;
+  request.lens->fit.vertex_distance = 15.0 / 1024.0;  // 16/1024 m in all, reduced: q = 250 * 0.5 - 64 = 61
+  request.eye.entrance_pupil_depth = 0.0;
+  request.object_distance = 1.0 / 61.0;
+  const auto result = trace(request);
+  EXPECT_TRUE(result.status == RayStatus::singular ||
+              std::abs(result.vergence.x) > (is_reference() ? 1e8 : 1e6));
+}
+
+TEST_P(HardCase, ObjectsAtInfinityAtFiveCentimetresAndAtTheFocus) {
+  for (const double c : {4.0, 14.0}) {
+    for (const double distance : {0.05, 1.0 / (0.5 * c), 1e9, 0.0}) {
+      auto request = through(lenses::Sphere{c}, lenses::Plane{}, 2.0);
+      request.object_distance = distance > 0.0 ? std::optional(distance) : std::nullopt;
+      expect_axial(request, c, 0.0);
+    }
+  }
+}
+
+TEST_P(HardCase, StrongLensesHighIndexAndWideGaze) {
+  struct Form {
+    double index, front, back, thickness_mm;
+  };
+  for (const Form& form : {Form{1.5, 60.0, 10.0, 9.0}, Form{1.5, 2.0, 52.0, 1.0}, Form{1.9, 12.0, 2.0, 5.0},
+                           Form{1.9, 2.0, 14.0, 1.2}, Form{1.74, 9.0, 5.0, 3.0}}) {
+    auto request = through(lenses::Sphere{form.front}, lenses::Sphere{form.back}, form.thickness_mm);
+    request.lens->index = form.index;
+    for (const double up : {0.0, 10.0, -25.0}) {
+      SCOPED_TRACE(testing::Message() << "front " << form.front << ", up " << up);
+      expect_coddington(request, up);
+    }
+    if (form.front < 50.0) {
+      request.object_distance = 0.4;
+      expect_coddington(request, 40.0);
+    }
+  }
+}
+
+TEST_P(HardCase, AxisWrapsAt180Degrees) {
+  for (const double axis : {0.0, 1e-13, std::numbers::pi - 1e-13, std::numbers::pi, -1e-13}) {
+    const auto request = through(Torus{9.0, 5.0, axis}, lenses::Sphere{4.0});
+    const auto result = trace(request);
+    expect_vergence(result, {axial_vergence(request, 9.0, 4.0), 0.0, axial_vergence(request, 5.0, 4.0)});
+    ASSERT_TRUE(result.axis_deg.has_value());
+    EXPECT_GE(*result.axis_deg, 0.0);
+    EXPECT_LT(*result.axis_deg, 180.0);
+    EXPECT_NEAR(std::remainder(*result.axis_deg, 180.0), 0.0, is_reference() ? 1e-10 : 1e-2);
+  }
+}
+
+TEST_P(HardCase, PlusAndMinusCylinderForms) {
+  for (const double axis : {0.0, 0.4, 1.6, 3.1}) {
+    const Torus plus{9.0, 5.0, axis, Torus::Revolve::u};
+    const Torus minus{5.0, 9.0, axis + 0.5 * std::numbers::pi, Torus::Revolve::v};
+    expect_same(trace(toward(through(plus, lenses::Sphere{3.0}), 20.0, -15.0)),
+                trace(toward(through(minus, lenses::Sphere{3.0}), 20.0, -15.0)));
+  }
+}
+
+TEST_P(HardCase, DirectionsOfAnyLength) {
+  const auto lens = through(lenses::Sphere{9.0}, lenses::Sphere{3.0});
+  const auto expected = trace(toward(lens, 10.0, 5.0));
+  const auto at = [](double scale) {
+    const glm::dvec3 d = scale * tracking::direction_from_yaw_pitch(10.0 * kRadians, 5.0 * kRadians);
+    nlohmann::json line;
+    line["direction"] = {d.x, d.y, d.z};
+    return lenses::parse_trace_line(line.dump(), "test", 1, std::string());
+  };
+  for (const double scale : {1e-300, 1e-20, 3.0, 1e150, 1e300}) {
+    TraceRequest request = at(scale);
+    request.lens = lens.lens;
+    expect_same(trace(request), expected);
+  }
+  for (const char* bad : {R"({"direction": [0, 0, 0]})", R"({"direction": [NaN, 0, -1]})",
+                          R"({"direction": [1e999, 0, -1]})", R"({"direction": [null, 0, -1]})",
+                          R"({"direction": [0, -1]})",
+                          R"({"direction": [0, 0, -1], "viewing": "gaze", "gaze": [0, 0, 0]})"}) {
+    EXPECT_THROW(static_cast<void>(lenses::parse_trace_line(bad, "test", 1, std::string())), tracking::InputError)
+        << bad;
+  }
+}
+
+TEST_P(HardCase, IdenticalLensesGiveIdenticalResults) {
+  const auto knots = even_knots(-0.05, 0.05, 7, true);
+  const auto one = toward(through(Torus{9.0, 5.0, 1.0}, support::paraboloid(knots, knots, 4.0)), 20.0, -15.0);
+  auto other = one;
+  other.lens->abbe = 30.0;  // no part of the trace, but another entry in the batch
+  const auto results = trace({one, other, one});
+  for (const auto& result : results) {
+    ASSERT_EQ(result.status, RayStatus::ok);
+    EXPECT_EQ(result.vergence, results[0].vergence);
+    EXPECT_EQ(result.front_hit, results[0].front_hit);
+    EXPECT_EQ(result.object_direction, results[0].object_direction);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, HardCase, testing::Values(support::Engine::reference, support::Engine::gpu),
+                         support::engine_name);
+
+}  // namespace

@@ -64,10 +64,10 @@ struct BsplineSurface {
 using Surface = std::variant<Plane, Sphere, Conic, Torus, BsplineHeightField, BsplineSurface>;
 
 struct Fit {
-  double vertex_distance = 0.013;    // cornea to back vertex, m
-  glm::dvec2 decentration{0.0};      // lens origin minus the primary line of sight, wearer's axes, m
-  double pantoscopic_tilt = 0.0;     // radians, > 0 brings the bottom edge toward the face
-  double wrap = 0.0;                 // radians, > 0 brings the temporal edge toward the face
+  double vertex_distance = 0.013;  // cornea to back vertex, m
+  glm::dvec2 decentration{0.0};    // lens origin minus the primary line of sight, wearer's axes, m
+  double pantoscopic_tilt = 0.0;   // radians, > 0 brings the bottom edge toward the face
+  double wrap = 0.0;               // radians, > 0 brings the temporal edge toward the face
   bool operator==(const Fit&) const = default;
 };
 
@@ -92,8 +92,8 @@ struct Lens {
 
 struct Spectacles {
   std::string name;
-  std::array<Lens, 2> lens;                  // indexed by Side
-  glm::dvec3 tint_transmission{1.0};         // linear r, g, b
+  std::array<Lens, 2> lens;           // indexed by Side
+  glm::dvec3 tint_transmission{1.0};  // linear r, g, b
 };
 
 // The correcting lens as written on a prescription; axis in TABO (ISO 8429, as the examiner sees it), radians.
@@ -107,18 +107,18 @@ struct RelaxedPower {
 };
 
 struct Zernike {
-  double pupil_diameter = 0.006;      // m
-  std::vector<double> coefficients;   // m, OSA/ANSI single index from j = 0, examiner's axes
+  double pupil_diameter = 0.006;     // m
+  std::vector<double> coefficients;  // m, OSA/ANSI single index from j = 0, examiner's axes
 };
 
 struct Eye {
-  double axial_length = 0.025;                        // m
-  std::optional<double> pupil_diameter;               // m; absent: 3.5 mm, or from the headset's luminance and the age
-  std::optional<double> accommodation_amplitude;      // D; absent: by age
+  double axial_length = 0.025;                    // m
+  std::optional<double> pupil_diameter;           // m; absent: 3.5 mm, or from the headset's luminance and the age
+  std::optional<double> accommodation_amplitude;  // D; absent: by age
   std::variant<std::monostate, Refraction, RelaxedPower> power;  // monostate: emmetropic
-  double refraction_vertex = 0.013;                   // m
-  double entrance_pupil_depth = 0.00305;              // behind the cornea, m
-  double centre_of_rotation_depth = 0.0135;           // behind the cornea, m
+  double refraction_vertex = 0.013;                              // m
+  double entrance_pupil_depth = 0.00305;                         // behind the cornea, m
+  double centre_of_rotation_depth = 0.0135;                      // behind the cornea, m
   std::optional<Zernike> zernike;
 };
 
@@ -132,10 +132,10 @@ struct Viewer {
 
 struct Wearer {
   std::string name;
-  double age = 35.0;                                       // years
+  double age = 35.0;                                         // years
   std::array<double, 2> pupillary_distance{0.0315, 0.0315};  // monocular, m, indexed by Side
-  std::array<Eye, 2> eye;                                  // indexed by Side
-  std::array<std::optional<Viewer>, 2> viewer;             // indexed by Side
+  std::array<Eye, 2> eye;                                    // indexed by Side
+  std::array<std::optional<Viewer>, 2> viewer;               // indexed by Side
 };
 
 }  // namespace lenses

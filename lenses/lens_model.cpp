@@ -15,7 +15,9 @@ struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
 
-int to_int(std::size_t n) { return static_cast<int>(n); }
+int to_int(std::size_t n) {
+  return static_cast<int>(n);
+}
 
 f64::SurfaceData conic_data(double curvature, double conic_constant, int kind) {
   f64::SurfaceData s{};
@@ -75,8 +77,7 @@ f64::SurfaceData make_height_field(const BsplineHeightField& spline, std::vector
 }
 
 // Start values of (u, v) for every square of the patch's bounding box: the sample that falls nearest to its middle.
-void append_lookup(f64::SurfaceData& s, const Cells& u, const Cells& v,
-                   std::vector<glm::dvec4>& table) {
+void append_lookup(f64::SurfaceData& s, const Cells& u, const Cells& v, std::vector<glm::dvec4>& table) {
   struct Sample {
     glm::dvec2 uv, xy;
   };
@@ -110,9 +111,8 @@ void append_lookup(f64::SurfaceData& s, const Cells& u, const Cells& v,
   for (int ix = 0; ix < f64::kLookupSize; ++ix) {
     for (int iy = 0; iy < f64::kLookupSize; ++iy) {
       const glm::dvec2 middle = low + step * glm::dvec2(ix + 0.5, iy + 0.5);
-      const auto nearest = std::ranges::min_element(samples, {}, [&](const Sample& sample) {
-        return dot(sample.xy - middle, sample.xy - middle);
-      });
+      const auto nearest = std::ranges::min_element(
+          samples, {}, [&](const Sample& sample) { return dot(sample.xy - middle, sample.xy - middle); });
       table.emplace_back(nearest->uv, 0.0, 0.0);
     }
   }
@@ -142,14 +142,13 @@ f64::SurfaceData make_parametric(const BsplineSurface& spline, std::vector<glm::
 }
 
 f64::SurfaceData make_surface(const Surface& surface, double semi_diameter, std::vector<glm::dvec4>& table) {
-  return std::visit(
-      Overloaded{[&](const Plane&) { return conic_data(0.0, 0.0, f64::kPlane); },
-                 [&](const Sphere& s) { return conic_data(s.curvature, 0.0, f64::kSphere); },
-                 [&](const Conic& s) { return make_conic(s, semi_diameter, table); },
-                 [&](const Torus& s) { return make_torus(s); },
-                 [&](const BsplineHeightField& s) { return make_height_field(s, table); },
-                 [&](const BsplineSurface& s) { return make_parametric(s, table); }},
-      surface);
+  return std::visit(Overloaded{[&](const Plane&) { return conic_data(0.0, 0.0, f64::kPlane); },
+                               [&](const Sphere& s) { return conic_data(s.curvature, 0.0, f64::kSphere); },
+                               [&](const Conic& s) { return make_conic(s, semi_diameter, table); },
+                               [&](const Torus& s) { return make_torus(s); },
+                               [&](const BsplineHeightField& s) { return make_height_field(s, table); },
+                               [&](const BsplineSurface& s) { return make_parametric(s, table); }},
+                    surface);
 }
 
 // Right eye Ry(-wrap) Rx(-panto), left eye Ry(+wrap) Rx(-panto): a positive wrap brings the temporal edge closer.

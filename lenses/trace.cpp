@@ -55,13 +55,15 @@ std::size_t lens_index_of(TraceBatch& batch, const TraceRequest& request) {
 
 }  // namespace
 
-double accommodation_amplitude_at(double age) { return 7.083 / (1.0 + std::exp(0.2031 * (age - 36.2) - 0.6109)); }
+double accommodation_amplitude_at(double age) {
+  return 7.083 / (1.0 + std::exp(0.2031 * (age - 36.2) - 0.6109));
+}
 
 void append_request(TraceBatch& batch, const TraceRequest& request) {
   const std::size_t lens_index = lens_index_of(batch, request);
-  batch.eyes.push_back(make_eye_data(
-      request.eye, request.eye.accommodation_amplitude.value_or(accommodation_amplitude_at(kDefaultAge)),
-      request.eye.pupil_diameter.value_or(kDefaultPupilDiameter)));
+  batch.eyes.push_back(
+      make_eye_data(request.eye, request.eye.accommodation_amplitude.value_or(accommodation_amplitude_at(kDefaultAge)),
+                    request.eye.pupil_diameter.value_or(kDefaultPupilDiameter)));
   const double q = request.object_distance ? 1.0 / *request.object_distance : 0.0;
   f64::TraceInput ray{};
   ray.direction = glm::dvec4(glm::normalize(request.direction), q);

@@ -21,8 +21,8 @@ LineOfSight to_world(const EyeOptics& eye, const SightLine& line, const glm::dve
   out.gaze = gaze;
   out.through_lens = line.status == lenses::f64::kStatusOk && eye.lens.glass.w != 0.0;
   out.start = eye.world_from_eye.point(out.through_lens ? line.start : line.pupil);
-  out.direction = glm::normalize(
-      eye.world_from_eye.direction(out.through_lens ? line.direction_object : line.direction));
+  out.direction =
+      glm::normalize(eye.world_from_eye.direction(out.through_lens ? line.direction_object : line.direction));
   return out;
 }
 
@@ -40,8 +40,7 @@ double demand_at(const lenses::f64::Table& table, const EyeOptics& eye, Viewing 
 
 }  // namespace
 
-LineOfSight look_along(const lenses::f64::Table& table, const EyeOptics& eye, Viewing viewing,
-                       const glm::dvec3& gaze) {
+LineOfSight look_along(const lenses::f64::Table& table, const EyeOptics& eye, Viewing viewing, const glm::dvec3& gaze) {
   const glm::dvec3 unit = glm::normalize(gaze);
   return to_world(eye, sight_line(table, eye, viewing, unit), unit);
 }

@@ -36,10 +36,10 @@ struct LineOfSight {
                                   const glm::dvec3& target);
 
 struct Fixation {
-  glm::dvec3 point{0.0};           // world; far away for the sky
-  double distance = 0.0;           // m from the midpoint between the eyes, infinite for the sky
-  std::array<LineOfSight, 2> line;  // indexed by Side
-  std::array<double, 2> demand{};   // accommodation each eye asks for, D, not limited
+  glm::dvec3 point{0.0};                  // world; far away for the sky
+  double distance = 0.0;                  // m from the midpoint between the eyes, infinite for the sky
+  std::array<LineOfSight, 2> line;        // indexed by Side
+  std::array<double, 2> demand{};         // accommodation each eye asks for, D, not limited
   std::array<double, 2> accommodation{};  // the state: the lesser demand, limited by each eye's own amplitude, D
 };
 

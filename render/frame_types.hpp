@@ -4,10 +4,10 @@
 #include "lenses/engine.hpp"
 
 namespace render::gpu {
-using lenses::f32::EyeData;
-using lenses::f32::LensData;
 using glm::ivec4;
 using glm::vec4;
+using lenses::f32::EyeData;
+using lenses::f32::LensData;
 #include "render/shaders/frame.h"
 #include "render/shaders/view.h"
 }  // namespace render::gpu

@@ -30,9 +30,9 @@ struct MapRange {
 struct FrameConfig {
   int width = 1024, height = 1024;  // of each view, pixels
   Mode mode = Mode::adof;
-  double threshold_px = 0.5;      // blurs with a smaller major semi-axis are not drawn
-  double exposure = 0.0;          // EV
-  int samples = 64;               // dof; with a target error the most that are taken
+  double threshold_px = 0.5;           // blurs with a smaller major semi-axis are not drawn
+  double exposure = 0.0;               // EV
+  int samples = 64;                    // dof; with a target error the most that are taken
   std::optional<double> target_error;  // dof: standard error of the mean luminance, rms over the picture
   std::uint32_t seed = 0;
   int colour_map = 0;             // 0: the paper's hue, 1: perceptual
@@ -55,8 +55,8 @@ struct RenderedView {
 struct RenderedFrame {
   std::vector<RenderedView> views;
   std::vector<vk::StageTime> stages;
-  MapRange range;            // of a map
-  int samples = 1;           // taken (dof)
+  MapRange range;               // of a map
+  int samples = 1;              // taken (dof)
   double error_estimate = 0.0;  // dof: see FrameConfig::target_error
 };
 

@@ -31,8 +31,7 @@ std::vector<gpu::TextureData> texture_data(const Scene& scene) {
   int first = 0;
   for (const Texture& texture : scene.textures) {
     const int wrap = static_cast<int>(texture.wrap_u) | (static_cast<int>(texture.wrap_v) << 8);
-    data.push_back(
-        {glm::ivec4(first, static_cast<int>(texture.width), static_cast<int>(texture.height), wrap)});
+    data.push_back({glm::ivec4(first, static_cast<int>(texture.width), static_cast<int>(texture.height), wrap)});
     first += static_cast<int>(texture.width * texture.height);
   }
   return data;

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "lenses/lens_model.hpp"
 #include "lenses/lens_io/trace_io.hpp"
+#include "lenses/lens_model.hpp"
 #include "render/frame_types.hpp"
 #include "tracking/stereo_view.hpp"
 
@@ -21,10 +21,10 @@ struct VirtualImage {
 };
 
 struct ViewSetup {
-  std::size_t lens = 0;                // index into the LensModel
+  std::size_t lens = 0;  // index into the LensModel
   lenses::f64::EyeData eye;
-  tracking::Pose world_from_eye;       // the eye's primary-gaze axes, origin: its pupil in primary gaze
-  tracking::EyeView view;              // its orientation relative to those axes, its field of view, its gaze
+  tracking::Pose world_from_eye;  // the eye's primary-gaze axes, origin: its pupil in primary gaze
+  tracking::EyeView view;         // its orientation relative to those axes, its field of view, its gaze
   Viewing viewing = Viewing::gaze;
   std::optional<double> accommodation;  // D, one state for the whole picture; absent: each ray its own
   glm::dvec3 tint{1.0};

@@ -45,14 +45,14 @@ struct FieldOfView {
 
 // One eye's view as the renderer needs it.
 struct EyeView {
-  Pose head_from_view;   // the picture's own frame: its -z is the picture's axis, its origin is unused by rays that
-                         // start at the pupil
+  Pose head_from_view;  // the picture's own frame: its -z is the picture's axis, its origin is unused by rays that
+                        // start at the pupil
   FieldOfView fov;
   glm::dvec3 gaze{0.0, 0.0, -1.0};  // line of sight before the lens, head axes
 };
 
 struct StereoView {
-  Pose world_from_head;  // origin: midpoint between the two primary-gaze pupils
+  Pose world_from_head;        // origin: midpoint between the two primary-gaze pupils
   std::array<EyeView, 2> eye;  // indexed by Side
 };
 

@@ -36,7 +36,9 @@ support::Sight chief_ray(const OffAxis& c) {
 }
 
 // From the centre of rotation back to the vertex sphere, whose radius every chief ray crosses at right angles.
-double on_vertex_sphere(double at_centre) { return at_centre / (1.0 + kVertexSphere * at_centre); }
+double on_vertex_sphere(double at_centre) {
+  return at_centre / (1.0 + kVertexSphere * at_centre);
+}
 
 TEST_P(OffAxisPower, AgreesWithTheTable) {
   const support::Sight sight = chief_ray(GetParam());
@@ -48,12 +50,11 @@ TEST_P(OffAxisPower, AgreesWithTheTable) {
   EXPECT_NEAR(sight.result.vergence.y, 0.0, 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Lenses, OffAxisPower,
-    testing::Values(OffAxis{"minus_5", -5.0, 1.498, 3.0, 2.0, 30.0, -5.0317, -4.8879},
-                    OffAxis{"plus_4", 4.0, 1.498, 8.0, 4.5, 30.0, 4.0364, 3.8684},
-                    OffAxis{"minus_8", -8.0, 1.666, 1.5, 1.2, 25.0, -8.4167, -7.9670},
-                    OffAxis{"plus_6", 6.0, 1.586, 9.0, 6.0, 25.0, 6.3435, 5.9435}),
-    [](const auto& instance) { return std::string(instance.param.name); });
+INSTANTIATE_TEST_SUITE_P(Lenses, OffAxisPower,
+                         testing::Values(OffAxis{"minus_5", -5.0, 1.498, 3.0, 2.0, 30.0, -5.0317, -4.8879},
+                                         OffAxis{"plus_4", 4.0, 1.498, 8.0, 4.5, 30.0, 4.0364, 3.8684},
+                                         OffAxis{"minus_8", -8.0, 1.666, 1.5, 1.2, 25.0, -8.4167, -7.9670},
+                                         OffAxis{"plus_6", 6.0, 1.586, 9.0, 6.0, 25.0, 6.3435, 5.9435}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace

@@ -78,9 +78,9 @@ void count(const std::vector<Record>& records, const lenses::TraceBatch& batch, 
     if (!good && ++tally.bad <= 10) {
       const auto& lens = batch.model.lens[static_cast<std::size_t>(batch.rays[i].which.x)];
       ADD_FAILURE() << engine << ", seed " << seed << ", ray " << i << ": status " << status << ", back kind "
-                    << lens.back.kind.x << ", front kind " << lens.front.kind.x << ", V " << records[i].vergence.x << " "
-                    << records[i].vergence.y << " " << records[i].vergence.z << ", R " << records[i].residual.x << " "
-                    << records[i].residual.w << ", blur " << records[i].blur.x << " " << records[i].blur.y << " "
+                    << lens.back.kind.x << ", front kind " << lens.front.kind.x << ", V " << records[i].vergence.x
+                    << " " << records[i].vergence.y << " " << records[i].vergence.z << ", R " << records[i].residual.x
+                    << " " << records[i].residual.w << ", blur " << records[i].blur.x << " " << records[i].blur.y << " "
                     << records[i].blur.z << ", back " << records[i].back_hit.z << ", front " << records[i].front_hit.z
                     << ", direction " << records[i].object_direction.z;
     }

@@ -29,9 +29,8 @@ TEST(FloatEngine, ReproducesEveryTracedCase) {
   }
   const auto records = lenses::trace_reference_float(batch);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    support::expect_case(
-        cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
-        {.dioptres = cases[i].gpu_tolerance, .metres = 1e-7, .radians = 1e-5, .axis_degrees = 1e-3});
+    support::expect_case(cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
+                         {.dioptres = cases[i].gpu_tolerance, .metres = 1e-7, .radians = 1e-5, .axis_degrees = 1e-3});
   }
 }
 

@@ -167,8 +167,7 @@ TEST(LensSymmetry, TurningLensAndRayTogetherTurnsTheVergence) {
     const Sight turned(request);
     ASSERT_TRUE(turned.ok());
     EXPECT_LE(glm::length(turned.result.front_hit - turn * sight.result.front_hit), 1e-14);
-    const glm::dmat3 difference =
-        vergence_in_space(turned) - turn * vergence_in_space(sight) * glm::transpose(turn);
+    const glm::dmat3 difference = vergence_in_space(turned) - turn * vergence_in_space(sight) * glm::transpose(turn);
     for (int column = 0; column < 3; ++column) {
       EXPECT_LE(glm::length(difference[column]), 1e-10);
     }

@@ -91,7 +91,7 @@ class Aim {
   }
 
   struct Difference {
-    glm::dmat2 value;  // V, by central differences of two widths (Richardson)
+    glm::dmat2 value;   // V, by central differences of two widths (Richardson)
     glm::dmat2 spread;  // between the two widths: more than the value's own error, also where a knot lies between
   };
   // The derivative of that change by the offset.
@@ -157,8 +157,7 @@ TEST_P(RayTransferProperty, PathsCanBeWalkedBackwards) {
     const f64::LensPath& path = sight.line.path;
     const glm::dvec3 beyond = path.front_hit + 0.03 * path.direction_object;
     const glm::dvec3 back(-path.direction_object.x, -path.direction_object.y, path.direction_object.z);
-    const f64::LensPath home =
-        f64::trace_lens(f64::Table{model.table}, model.lens.front(), mirror(beyond), back);
+    const f64::LensPath home = f64::trace_lens(f64::Table{model.table}, model.lens.front(), mirror(beyond), back);
     ASSERT_EQ(home.status, f64::kStatusOk);
     EXPECT_LE(glm::length(home.back_hit - mirror(path.front_hit)), 1e-12);
     EXPECT_LE(glm::length(home.front_hit - mirror(path.back_hit)), 1e-12);
@@ -168,13 +167,12 @@ TEST_P(RayTransferProperty, PathsCanBeWalkedBackwards) {
   EXPECT_GE(traced, 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    FrontAndBack, RayTransferProperty,
-    testing::Combine(testing::Range<std::size_t>(0, support::kSurfaceKinds),
-                     testing::Range<std::size_t>(0, support::kSurfaceKinds)),
-    [](const auto& instance) {
-      return std::string(support::kSurfaceNames[std::get<0>(instance.param)]) + "_then_" +
-             support::kSurfaceNames[std::get<1>(instance.param)];
-    });
+INSTANTIATE_TEST_SUITE_P(FrontAndBack, RayTransferProperty,
+                         testing::Combine(testing::Range<std::size_t>(0, support::kSurfaceKinds),
+                                          testing::Range<std::size_t>(0, support::kSurfaceKinds)),
+                         [](const auto& instance) {
+                           return std::string(support::kSurfaceNames[std::get<0>(instance.param)]) + "_then_" +
+                                  support::kSurfaceNames[std::get<1>(instance.param)];
+                         });
 
 }  // namespace

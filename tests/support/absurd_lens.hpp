@@ -127,6 +127,8 @@ inline glm::dvec3 absurd_direction(Random& random) {
   return random.direction_ahead(random.log_uniform(1e-4, 1.5));
 }
 
-inline double absurd_distance(Random& random) { return random.log_uniform(1e-6, 1e9); }
+inline double absurd_distance(Random& random) {
+  return random.log_uniform(1e-6, 1e9);
+}
 
 }  // namespace support

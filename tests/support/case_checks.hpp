@@ -12,10 +12,10 @@
 namespace support {
 
 struct CaseTolerance {
-  double dioptres;           // absolute up to 100 D, relative to |V|/100 beyond
-  double metres;             // positions
-  double radians;            // directions
-  double axis_degrees;       // where the astigmatism is 0.05 D or more
+  double dioptres;      // absolute up to 100 D, relative to |V|/100 beyond
+  double metres;        // positions
+  double radians;       // directions
+  double axis_degrees;  // where the astigmatism is 0.05 D or more
 };
 
 inline void expect_case(const OpticsCase& c, const lenses::TraceResult& r, const CaseTolerance& tolerance) {

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <glm/vec2.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 namespace support {
 
@@ -63,8 +63,8 @@ inline TangentialSagittal coddington_vergence(const CentredLens& lens, double el
   double to_back = 0.0;
   double in_glass = 0.0;
   const Refraction back = cross_surface(p, d, to_back, -lens.pupil_to_back, lens.back_curvature, 1.0, lens.index);
-  const Refraction front = cross_surface(p, d, in_glass, -lens.pupil_to_back - lens.thickness, lens.front_curvature,
-                                         lens.index, 1.0);
+  const Refraction front =
+      cross_surface(p, d, in_glass, -lens.pupil_to_back - lens.thickness, lens.front_curvature, lens.index, 1.0);
   // Light comes the other way: front, glass, back, pupil; a centre on the eye side lies ahead.
   TangentialSagittal w{-q, -q};
   refract(w, 1.0, front.cos_air, lens.index, front.cos_glass, lens.front_curvature);

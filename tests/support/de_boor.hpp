@@ -41,14 +41,18 @@ double de_boor(const std::vector<double>& knots, const Control& control, double 
 template <class Control>
 double de_boor(const std::vector<double>& knots_u, const std::vector<double>& knots_v, const Control& control, double u,
                double v) {
-  return de_boor(knots_u, [&](std::size_t i) {
-    return de_boor(knots_v, [&](std::size_t j) { return control(i, j); }, v);
-  }, u);
+  return de_boor(
+      knots_u,
+      [&](std::size_t i) {
+        return de_boor(
+            knots_v, [&](std::size_t j) { return control(i, j); }, v);
+      },
+      u);
 }
 
 inline double height_at(const lenses::BsplineHeightField& s, double x, double y) {
-  return de_boor(s.knots_x, s.knots_y,
-                 [&](std::size_t i, std::size_t j) { return s.control_z[i * s.count_y() + j]; }, x, y);
+  return de_boor(
+      s.knots_x, s.knots_y, [&](std::size_t i, std::size_t j) { return s.control_z[i * s.count_y() + j]; }, x, y);
 }
 
 // Control value i of the spline that equals t^2 (its blossom).

@@ -65,8 +65,7 @@ inline std::vector<double> even_knots(double low, double high, std::size_t cells
 inline std::vector<double> uneven_knots(Random& random, double low, double high, std::size_t cells) {
   std::vector<double> inner;
   for (std::size_t i = 1; i < cells; ++i) {
-    if (!inner.empty() && random.chance(0.25) &&
-        std::count(inner.begin(), inner.end(), inner.back()) < 3) {
+    if (!inner.empty() && random.chance(0.25) && std::count(inner.begin(), inner.end(), inner.back()) < 3) {
       inner.push_back(inner.back());
     } else {
       const double step = (high - low) / static_cast<double>(cells);
@@ -134,7 +133,8 @@ inline lenses::Surface ordinary_surface(Random& random, std::size_t kind, double
     case 0:
       return lenses::Plane{};
     case 2:
-      return lenses::Conic{curvature, random.uniform(-1.5, 0.5), {random.uniform(-5.0, 5.0), random.uniform(-2e3, 2e3)}};
+      return lenses::Conic{
+          curvature, random.uniform(-1.5, 0.5), {random.uniform(-5.0, 5.0), random.uniform(-2e3, 2e3)}};
     case 3:
       return lenses::Torus{curvature, curvature + random.uniform(-6.0, 6.0), random.uniform(0.0, std::numbers::pi),
                            random.chance(0.5) ? lenses::Torus::Revolve::u : lenses::Torus::Revolve::v};
@@ -177,7 +177,8 @@ inline lenses::Lens ordinary_lens(Random& random) {
   return ordinary_lens(random, random.pick(kSurfaceKinds), random.pick(kSurfaceKinds));
 }
 
-inline lenses::TraceRequest ordinary_request(Random& random, const lenses::Lens& lens, double widest = 35.0 * kRadians) {
+inline lenses::TraceRequest ordinary_request(Random& random, const lenses::Lens& lens,
+                                             double widest = 35.0 * kRadians) {
   using Viewing = lenses::TraceRequest::Viewing;
   lenses::TraceRequest request;
   request.lens = lens;

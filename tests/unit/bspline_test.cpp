@@ -82,11 +82,11 @@ TEST(HeightField, AgreesWithDeBoorsRecursion) {
   Random random(kSeed);
   for (int trial = 0; trial < 50; ++trial) {
     SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", trial " << trial);
-    const auto spline = support::height_field(
-        support::uneven_knots(random, -0.02, 0.03, 2 + random.pick(8)),
-        trial % 2 == 0 ? support::even_knots(-0.025, 0.02, 3 + random.pick(6), false)
-                       : support::uneven_knots(random, -0.025, 0.02, 2 + random.pick(8)),
-        [&](double, double) { return random.uniform(-1e-3, 1e-3); });
+    const auto spline =
+        support::height_field(support::uneven_knots(random, -0.02, 0.03, 2 + random.pick(8)),
+                              trial % 2 == 0 ? support::even_knots(-0.025, 0.02, 3 + random.pick(6), false)
+                                             : support::uneven_knots(random, -0.025, 0.02, 2 + random.pick(8)),
+                              [&](double, double) { return random.uniform(-1e-3, 1e-3); });
     for (int i = 0; i < 50; ++i) {
       const double x = i == 0 ? 0.03 : random.uniform(-0.02, 0.03);
       const double y = i == 1 ? 0.02 : random.uniform(-0.025, 0.02);

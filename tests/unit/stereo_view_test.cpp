@@ -33,9 +33,9 @@ TEST(Pose, ComposesAndInverts) {
     EXPECT_LE(glm::length((world_from_head * head_from_eye).point(p) - world_from_head.point(head_from_eye.point(p))),
               1e-14);
     EXPECT_LE(glm::length(world_from_head.inverse().point(world_from_head.point(p)) - p), 1e-14);
-    EXPECT_LE(glm::length(world_from_head.point(p) - world_from_head.point(glm::dvec3(0.0)) -
-                          world_from_head.direction(p)),
-              1e-14);
+    EXPECT_LE(
+        glm::length(world_from_head.point(p) - world_from_head.point(glm::dvec3(0.0)) - world_from_head.direction(p)),
+        1e-14);
     EXPECT_NEAR(glm::length(world_from_head.direction(p)), glm::length(p), 1e-14);
   }
 }

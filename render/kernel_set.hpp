@@ -1,0 +1,33 @@
+// The frame's kernels, compiled when first asked for and kept: one for each stage and specialisation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "render/vk/device.hpp"
+#include "render/vk/kernel.hpp"
+
+namespace render {
+
+enum class Stage : std::uint32_t { chief, edges, samples, blur, encode };
+
+// How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
+struct TraceVariant {
+  std::uint32_t surface_kinds = 0xffffffffU;  // bit k: some lens has a surface of kind k
+  bool wavefront = true;                      // false: radiance only
+  bool keep_wavefront = false;
+};
+
+class KernelSet {
+ public:
+  explicit KernelSet(vk::Device& device) : device_(device) {}
+
+  [[nodiscard]] const vk::Kernel& get(Stage stage, const TraceVariant& variant = {});
+
+ private:
+  vk::Device& device_;
+  std::map<std::array<std::uint32_t, 4>, vk::Kernel> kernels_;
+};
+
+}  // namespace render

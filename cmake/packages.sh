@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that building, running and testing need, if any is missing. Asks nothing, and touches no
-# network when all are there.
+# network when all are there. More packages may be named as arguments.
 set -euo pipefail
 
 packages=(
@@ -8,6 +8,7 @@ packages=(
   libvulkan-dev glslc mesa-vulkan-drivers vulkan-validationlayers
   libembree-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libstb-dev libopenexr-dev libeigen3-dev
   libfreetype-dev fonts-liberation libgtest-dev
+  "$@"
 )
 
 missing=()

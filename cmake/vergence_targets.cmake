@@ -12,6 +12,12 @@ if(VERGENCE_SANITIZE)
   target_link_options(vergence_settings INTERFACE -fsanitize=address,undefined)
 endif()
 
+option(VERGENCE_FUZZ "Instrument for libFuzzer and build the harnesses; needs clang" OFF)
+if(VERGENCE_FUZZ)
+  target_compile_options(vergence_settings INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_link_options(vergence_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
 # vergence_library(NAME SOURCES...): one static library a folder, named vergence_<folder>.
 function(vergence_library name)
   add_library(${name} STATIC ${ARGN})

@@ -72,7 +72,7 @@ class RenderRefuses : public testing::Test {
   [[nodiscard]] Words render(const Words& more) const {
     Words words{"render", "--scene", scene_, "--size", "8x8", "--output", output()};
     // An option of the call replaces the one above.
-    for (const std::string& option : {"--scene", "--size", "--output"}) {
+    for (const std::string option : {"--scene", "--size", "--output"}) {
       if (const auto place = std::ranges::find(words, option); std::ranges::find(more, option) != more.end()) {
         words.erase(place, place + 2);
       }

@@ -184,6 +184,28 @@ TEST_P(HardCase, StartOutsideThePatch) {
   }
 }
 
+// Far beside a small lens, at grazing incidence: Newton's method hands over to the search along the ray.
+TEST_P(HardCase, StartFarBesideASmallLens) {
+  const auto knots = even_knots(-0.02, 0.02, 5, true);
+  for (const double beside_mm : {30.0, 60.0, 95.0}) {
+    const double right = -std::atan(beside_mm / 16.05) / kRadians;
+    auto sphere = toward(parallel(through(lenses::Plane{}, lenses::Sphere{0.5}, 1.0), beside_mm, 0.0), right, 0.0);
+    sphere.lens->diameter = 0.016;
+    const auto expected = trace(sphere);
+    ASSERT_EQ(expected.status, RayStatus::ok);
+    auto torus = sphere;
+    torus.lens->back = Torus{0.5, 0.5};
+    expect_same(trace(torus), expected);
+    auto conic = sphere;
+    conic.lens->back = lenses::Conic{0.5, -1.0, {}};
+    const auto as_conic = trace(conic);
+    auto spline = sphere;
+    spline.lens->back = support::paraboloid(knots, knots, 0.5);
+    EXPECT_EQ(as_conic.status, RayStatus::ok);
+    expect_same(trace(spline), as_conic);
+  }
+}
+
 TEST_P(HardCase, HitsOnKnotLinesAndRepeatedKnots) {
   const std::vector<double> doubled{-0.05, -0.05, -0.05, -0.05, -0.01, -0.01, 0.0,
                                     0.0,   0.0,   0.012, 0.05,  0.05,  0.05,  0.05};

@@ -29,10 +29,10 @@ struct ProgramResult {
 
 struct ProgramCall {
   std::vector<std::string> arguments;
-  std::string input;                                               // on standard input
-  std::vector<std::pair<std::string, std::string>> environment;    // beyond this process's own
-  std::string standard_output;                                     // a file to write to instead of a pipe
-  std::filesystem::path folder;                                    // to run in; empty: where the test runs
+  std::string input = {};                                          // on standard input
+  std::vector<std::pair<std::string, std::string>> environment = {};  // beyond this process's own
+  std::string standard_output = {};                                  // a file to write to instead of a pipe
+  std::filesystem::path folder = {};                                // to run in; empty: where the test runs
   std::chrono::seconds time_limit{60};
 };
 

@@ -1,13 +1,17 @@
 #include "render/view_setup.hpp"
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
 
 namespace render {
 
 gpu::ViewData make_view_data(const ViewSetup& setup, const lenses::LensModel& lenses) {
-  if (!setup.world_from_eye.is_finite() || !setup.view.head_from_view.is_finite()) {
-    throw std::invalid_argument("a view's pose is not finite");
+  const double gaze_length = glm::length(setup.view.gaze);
+  if (!setup.world_from_eye.is_finite() || !setup.view.head_from_view.is_finite() || !std::isfinite(gaze_length) ||
+      !(gaze_length > 0.0)) {
+    throw std::invalid_argument("a view's pose or gaze is not finite");
   }
   gpu::ViewData data{};
   data.lens = lenses::to_float(lenses.lens[setup.lens]);

@@ -1,7 +1,12 @@
-// Owners of Embree's handles, and its errors as exceptions.
+// Owners of Embree's handles, its errors as exceptions, and the one call that differs between Embree 3 (Debian 12) and
+// 4 (Debian 13).
 #pragma once
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <memory>
 #include <stdexcept>
@@ -35,6 +40,16 @@ inline EmbreeDevice make_embree_device() {
   EmbreeDevice device(rtcNewDevice(nullptr));
   if (!device) check_embree(nullptr, "rtcNewDevice");
   return device;
+}
+
+inline void intersect_one(RTCScene scene, RTCRayHit& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene, &ray);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &ray);
+#endif
 }
 
 }  // namespace render

@@ -75,9 +75,7 @@ std::optional<RayQuery::Hit> RayQuery::closest(glm::dvec3 origin, glm::dvec3 dir
   ray.ray.tfar = std::numeric_limits<float>::infinity();
   ray.ray.mask = 0xFFFFFFFFU;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(state_->scene.get(), &context, &ray);
+  intersect_one(state_->scene.get(), ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const double distance = state_->refine(origin, unit, ray.hit.primID, static_cast<double>(ray.ray.tfar));
   return Hit{distance, ray.hit.primID};

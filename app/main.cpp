@@ -20,7 +20,8 @@ constexpr int kFailed = 1, kBadInput = 2;
 
 // One line, whatever a message holds.
 int report(std::string message, int status) {
-  std::ranges::replace_if(message, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::ranges::replace_if(
+      message, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   std::cerr << "vergence: " << message << '\n';
   return status;
 }
@@ -80,8 +81,9 @@ int run(int argc, char** argv) {
   CLI::App program("Vergence: what each eye sees through its own spectacles. Not a medical device.", "vergence");
   program.set_version_flag("--version", VERGENCE_VERSION);
   program.require_subcommand(1);
-  program.footer("Exit status: 0 done, 1 failed at run time (GPU, disk), 2 bad input or usage.\n"
-                 "Example: vergence render --look-at near_card --output near.png");
+  program.footer(
+      "Exit status: 0 done, 1 failed at run time (GPU, disk), 2 bad input or usage.\n"
+      "Example: vergence render --look-at near_card --output near.png");
   std::map<std::string, app::Action> actions;
   actions["render"] = app::add_render_command(program);
   actions["trace"] = app::add_trace_command(program);

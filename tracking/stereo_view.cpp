@@ -36,8 +36,13 @@ glm::dquat orientation_from_yaw_pitch(double yaw, double pitch) {
 
 glm::dmat3 listing_rotation(const glm::dvec3& gaze) {
   const glm::dvec3 g = glm::normalize(gaze);
-  // Rodrigues with axis (-z) x g = (g.y, -g.x, 0) and cosine -g.z; (1 - cos)/sin^2 = 1/(1 + cos).
-  const double k = 1.0 / (1.0 - g.z);
+  // Rodrigues with axis (-z) x g = (g.y, -g.x, 0) and cosine -g.z; k = (1 - cos)/sin^2 = 1/(1 + cos), from the sine
+  // where 1 - g.z would cancel. Straight back it is the half turn about y.
+  const double s2 = g.x * g.x + g.y * g.y;
+  if (g.z > 0.0 && !(s2 > 0.0)) {
+    return glm::dmat3({-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, -1.0});
+  }
+  const double k = g.z <= 0.0 ? 1.0 / (1.0 - g.z) : (1.0 + g.z) / s2;
   const glm::dvec3 x(1.0 - k * g.x * g.x, -k * g.x * g.y, g.x);
   const glm::dvec3 y(-k * g.x * g.y, 1.0 - k * g.y * g.y, g.y);
   return glm::dmat3(x, y, -g);

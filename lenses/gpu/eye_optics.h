@@ -45,11 +45,13 @@ VG_FUNCTION real clamped_accommodation(vec3 v, EyeData eye) {
   return clamp(accommodation_demand(v, eye), real(0), eye.excess.w);
 }
 
-// Listing's law: the smallest rotation from -z to a unit gaze direction.
+// Listing's law: the smallest rotation from -z to a unit gaze direction. 1 - g_z is taken from the sine where it would
+// cancel; straight back it is the half turn about y.
 VG_FUNCTION mat3 listing_rotation(vec3 g) {
-  real k = real(1) / max(real(1) - g.z, kEpsilon);
-  return mat3(real(1) - k * g.x * g.x, -k * g.x * g.y, g.x, -k * g.x * g.y, real(1) - k * g.y * g.y, g.y, -g.x, -g.y,
-              -g.z);
+  real s2 = g.x * g.x + g.y * g.y;
+  real k = g.z <= real(0) ? real(1) / (real(1) - g.z) : (s2 > real(0) ? (real(1) + g.z) / s2 : real(0));
+  real xx = g.z > real(0) && !(s2 > real(0)) ? real(2) : k * g.x * g.x;
+  return mat3(real(1) - xx, -k * g.x * g.y, g.x, -k * g.x * g.y, real(1) - k * g.y * g.y, g.y, -g.x, -g.y, -g.z);
 }
 
 // The pupil plane's basis for a ray of direction d (unit): e_h = normalize(d x y), e_v = e_h x d. A ray straight up or

@@ -46,8 +46,8 @@ VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, 
   real radius = semi_diameter * real(1.0001);
   real c = o.x * o.x + o.y * o.y - radius * radius;
   real t0 = real(0);
-  // A ray along the axis is searched to well past any sag a lens can have.
-  real t1 = abs(o.z) + real(4) * semi_diameter;
+  // As far as any sag a lens can have; a ray across the axis ends at the cylinder instead.
+  real t1 = (abs(o.z) + real(4) * semi_diameter) / max(abs(d.z), kEpsilon);
   if (a > kEpsilon * kEpsilon) {
     real disc = b * b - a * c;
     if (!(disc >= real(0))) {

@@ -94,9 +94,13 @@ void expect_answers(const std::string& engine) {
   }
 }
 
-TEST(BadRays, GetAnErrorInTheirPlace) { expect_answers("reference"); }
+TEST(BadRays, GetAnErrorInTheirPlace) {
+  expect_answers("reference");
+}
 
-TEST(BadRays, GetAnErrorInTheirPlaceOnTheGpu) { expect_answers("gpu"); }
+TEST(BadRays, GetAnErrorInTheirPlaceOnTheGpu) {
+  expect_answers("gpu");
+}
 
 void expect_refused(const std::vector<std::string>& words, int status, const std::string& start) {
   const ProgramResult result = run_program({.arguments = words, .input = kGood + "\n"});

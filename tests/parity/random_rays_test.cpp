@@ -2,6 +2,8 @@
 // the two engines side by side on lenses that could be worn.
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "lenses/trace.hpp"
 #include "render/gpu_tracer.hpp"
 #include "render/vk/device.hpp"

@@ -87,17 +87,17 @@ LensCase same_for_both(const std::string& name, const Lens& lens) {
 
 std::vector<LensCase> lens_cases() {
   support::Random random(11);
-  return {{"bare", std::nullopt},
-          same_for_both("sphere", tilted_sphere()),
-          same_for_both("torus revolved about v", torus_lens(lenses::Torus::Revolve::u)),
-          same_for_both("torus revolved about u", torus_lens(lenses::Torus::Revolve::v)),
-          same_for_both("conic and plane", conic_lens()),
-          same_for_both("contact lens", contact_lens()),
-          same_for_both("parametric B-spline", support::ordinary_lens(random, 5, 1)),
-          {"progressive with sphere",
-           lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_sphere.json")},
-          {"progressive with torus",
-           lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_torus.json")}};
+  return {
+      {"bare", std::nullopt},
+      same_for_both("sphere", tilted_sphere()),
+      same_for_both("torus revolved about v", torus_lens(lenses::Torus::Revolve::u)),
+      same_for_both("torus revolved about u", torus_lens(lenses::Torus::Revolve::v)),
+      same_for_both("conic and plane", conic_lens()),
+      same_for_both("contact lens", contact_lens()),
+      same_for_both("parametric B-spline", support::ordinary_lens(random, 5, 1)),
+      {"progressive with sphere",
+       lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_sphere.json")},
+      {"progressive with torus", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_torus.json")}};
 }
 
 // Astigmatic, ametropic, and not alike, so that no term of the residual drops out.
@@ -165,8 +165,7 @@ void expect_pixel(const Picture& picture, int x, int y, const render::RayQuery& 
   tally.worst_vergence = std::max(tally.worst_vergence, worst);
   EXPECT_LE(worst, kDioptres) << "pixel " << x << ", " << y << ", depth " << depth << ", wanted " << expected.x << " "
                               << expected.y << " " << expected.z << ", got " << v.x << " " << v.y << " " << v.z;
-  const double accommodation =
-      setup.accommodation.value_or(lenses::f64::clamped_accommodation(expected, setup.eye));
+  const double accommodation = setup.accommodation.value_or(lenses::f64::clamped_accommodation(expected, setup.eye));
   EXPECT_NEAR(view.wavefront.accommodation[at], accommodation, kDioptres);
   // |eig| of a symmetric 2x2 changes by no more than twice its entries do; the accommodation's error is one more.
   const glm::dvec3 r = expected + glm::dvec3(setup.eye.excess.x, setup.eye.excess.y, setup.eye.excess.z) +
@@ -219,8 +218,7 @@ class RenderedWavefront : public testing::Test {
     Tally all;
     for (const LensCase& c : lens_cases()) {
       SCOPED_TRACE(c.name);
-      const auto pair =
-          support::wear(odd_wearer(), c.spectacles ? &*c.spectacles : nullptr, head_in_room(*scene_));
+      const auto pair = support::wear(odd_wearer(), c.spectacles ? &*c.spectacles : nullptr, head_in_room(*scene_));
       for (const char* target : {"near_card", "window"}) {
         SCOPED_TRACE(target);
         const Tally tally =
@@ -246,11 +244,17 @@ class RenderedWavefront : public testing::Test {
   inline static render::Renderer* renderer_ = nullptr;
 };
 
-TEST_F(RenderedWavefront, IsTheReferenceTraceInFixedViewing) { expect_every_lens(render::Viewing::fixed); }
+TEST_F(RenderedWavefront, IsTheReferenceTraceInFixedViewing) {
+  expect_every_lens(render::Viewing::fixed);
+}
 
-TEST_F(RenderedWavefront, IsTheReferenceTraceInGazeViewing) { expect_every_lens(render::Viewing::gaze); }
+TEST_F(RenderedWavefront, IsTheReferenceTraceInGazeViewing) {
+  expect_every_lens(render::Viewing::gaze);
+}
 
-TEST_F(RenderedWavefront, IsTheReferenceTraceInScanningViewing) { expect_every_lens(render::Viewing::scanning); }
+TEST_F(RenderedWavefront, IsTheReferenceTraceInScanningViewing) {
+  expect_every_lens(render::Viewing::scanning);
+}
 
 // Pixels as points of a headset's virtual image, the view's origin in the pupil or in the centre of rotation.
 TEST_F(RenderedWavefront, IsTheReferenceTraceInAHeadset) {

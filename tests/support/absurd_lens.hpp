@@ -39,7 +39,12 @@ inline lenses::Conic absurd_conic(Random& random, double semi_diameter) {
   conic.conic_constant = random.chance(0.2) ? -1.0 : random.sign() * random.log_uniform(1e-3, 1e4);
   const std::size_t terms = random.pick(9);
   double power = std::pow(semi_diameter, 4);
+  const bool largest = random.chance(0.1);
   for (std::size_t i = 0; i < terms; ++i) {
+    if (largest) {  // what a file may say: 1 mm^-3, 1 mm^-5, ...
+      conic.even_coefficients.push_back(random.sign() * std::pow(1e3, static_cast<double>(2 * i + 3)));
+      continue;
+    }
     // From a nanometre to a metre of sag at the rim.
     conic.even_coefficients.push_back(random.sign() * random.log_uniform(1e-9, 1.0) / power);
     power *= semi_diameter * semi_diameter;

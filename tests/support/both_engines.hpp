@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "lenses/trace.hpp"
@@ -61,6 +62,20 @@ class BothEngines : public testing::TestWithParam<Engine> {
       expect_vergence(a, b.vergence);
       EXPECT_LE(glm::length(a.back_hit - b.back_hit), metres());
       EXPECT_LE(glm::length(a.front_hit - b.front_hit), metres());
+    }
+  }
+
+  // Pairs of requests that must give the same; in one batch, as every batch compiles its kernel.
+  static void expect_same(const std::vector<std::pair<lenses::TraceRequest, lenses::TraceRequest>>& pairs) {
+    std::vector<lenses::TraceRequest> requests;
+    for (const auto& [one, other] : pairs) {
+      requests.push_back(one);
+      requests.push_back(other);
+    }
+    const auto results = trace(requests);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << "pair " << i);
+      expect_same(results[2 * i], results[2 * i + 1]);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -29,10 +30,10 @@ struct ProgramResult {
 
 struct ProgramCall {
   std::vector<std::string> arguments;
-  std::string input = {};                                          // on standard input
+  std::string input = {};                                             // on standard input
   std::vector<std::pair<std::string, std::string>> environment = {};  // beyond this process's own
-  std::string standard_output = {};                                  // a file to write to instead of a pipe
-  std::filesystem::path folder = {};                                // to run in; empty: where the test runs
+  std::string standard_output = {};                                   // a file to write to instead of a pipe
+  std::filesystem::path folder = {};                                  // to run in; empty: where the test runs
   std::chrono::seconds time_limit{60};
 };
 
@@ -99,7 +100,8 @@ inline bool converse(const ProgramCall& call, Pipe& in, Pipe& out, Pipe& err, Pr
       return false;
     }
     if (ends[0].revents != 0) {
-      const ssize_t n = ::write(in.end(1), call.input.data() + written, std::min<std::size_t>(call.input.size() - written, 4096));
+      const ssize_t n =
+          ::write(in.end(1), call.input.data() + written, std::min<std::size_t>(call.input.size() - written, 4096));
       written += n > 0 ? static_cast<std::size_t>(n) : 0;
       if (n <= 0 || written == call.input.size()) {
         in.close_end(1);

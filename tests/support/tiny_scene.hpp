@@ -32,13 +32,12 @@ inline gltf_fixture::Gltf patch_gltf(const std::vector<Patch>& patches, const st
   json primitives = json::array();
   for (const Patch& patch : patches) {
     std::vector<float> corners;
-    for (const glm::vec3& p : {patch.corner, patch.corner + patch.side, patch.corner + patch.side + patch.up,
-                               patch.corner + patch.up}) {
+    for (const glm::vec3& p :
+         {patch.corner, patch.corner + patch.side, patch.corner + patch.side + patch.up, patch.corner + patch.up}) {
       corners.insert(corners.end(), {p.x, p.y, p.z});
     }
     const int positions = gltf.accessor(corners, "VEC3", gltf_fixture::kF32, 4);
-    const int indices =
-        gltf.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", gltf_fixture::kU16, 6);
+    const int indices = gltf.accessor(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, "SCALAR", gltf_fixture::kU16, 6);
     const int material = gltf.add(
         "materials", {{"emissiveFactor", {1, 1, 1}},
                       {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", patch.radiance}}}}}});

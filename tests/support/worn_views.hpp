@@ -85,7 +85,9 @@ inline glm::dvec3 target_position(const render::Scene& scene, const std::string&
   throw std::invalid_argument("no target " + name);
 }
 
-inline render::Scene reading_room() { return render::read_gltf(VERGENCE_BUILT_ASSETS "/reading_room.glb"); }
+inline render::Scene reading_room() {
+  return render::read_gltf(VERGENCE_BUILT_ASSETS "/reading_room.glb");
+}
 
 // The direction from the pupil, in primary axes, of the centre of pixel (x, y).
 inline glm::dvec3 pixel_direction(const render::ViewSetup& view, int x, int y, int width, int height) {
@@ -97,8 +99,8 @@ inline glm::dvec3 pixel_direction(const render::ViewSetup& view, int x, int y, i
     return glm::normalize(ahead);
   }
   // A headset's pixel is a point of its virtual image.
-  const glm::dvec3 point =
-      glm::dvec3(0.0, 0.0, view.virtual_image->origin_behind_pupil) + view.virtual_image->distance * glm::normalize(ahead);
+  const glm::dvec3 point = glm::dvec3(0.0, 0.0, view.virtual_image->origin_behind_pupil) +
+                           view.virtual_image->distance * glm::normalize(ahead);
   const glm::dmat3 turn = f64::eye_turn(static_cast<int>(view.viewing), view.view.gaze, glm::normalize(ahead));
   return glm::normalize(point - f64::turned_pupil(turn, view.eye.pupil.y));
 }
@@ -110,7 +112,8 @@ struct ReferencePixel {
   f64::TraceInput ray;
 };
 
-inline ReferencePixel reference_pixel(const WornPair& pair, const render::ViewSetup& view, const glm::dvec3& direction) {
+inline ReferencePixel reference_pixel(const WornPair& pair, const render::ViewSetup& view,
+                                      const glm::dvec3& direction) {
   ReferencePixel pixel;
   pixel.ray = {glm::dvec4(direction, 0.0), glm::dvec4(view.view.gaze, 0.0),
                glm::ivec4(0, 0, static_cast<int>(view.viewing), 0)};

@@ -119,8 +119,8 @@ TEST_F(FixationTest, StraightCastingMissesByDegrees) {
     const double error = std::acos(glm::dot(line.direction, gaze)) / kRadians;
     // Prentice: 27 mm tan 20 = 9.8 mm, times 6 D: 5.9 prism dioptres, 3.4 degrees; a thick plus lens adds to that.
     EXPECT_NEAR(error, power > 0.0 ? 4.0 : 3.4, 0.1);
-    // A plus lens brings the line nearer to the axis of what it sees: objects seem farther out than they are.
-    EXPECT_EQ(line.direction.x<gaze.x, power> 0.0);
+    // A plus lens bends the line toward its axis, a minus lens away from it.
+    EXPECT_GT(power * (gaze.x - line.direction.x), 0.0);
   }
 }
 

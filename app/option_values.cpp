@@ -63,16 +63,18 @@ std::array<int, 2> size_of(const std::string& option, const std::string& text) {
     good = second == std::errc{} && last == end;
   }
   if (!good || size[0] < 1 || size[1] < 1 || size[0] > kLargestSide || size[1] > kLargestSide) {
-    throw InputError(option, "", "'" + text + "' is not WxH with each side from 1 to " + std::to_string(kLargestSide) +
-                                     " pixels, such as 1024x1024");
+    throw InputError(option, "",
+                     "'" + text + "' is not WxH with each side from 1 to " + std::to_string(kLargestSide) +
+                         " pixels, such as 1024x1024");
   }
   return size;
 }
 
 void check_range(const std::string& option, double value, double lo, double hi, const std::string& unit) {
   if (!(value >= lo && value <= hi)) {
-    throw InputError(option, "", short_number(value) + " is out of range; from " + short_number(lo) + " to " +
-                                     short_number(hi) + (unit.empty() ? "" : " " + unit));
+    throw InputError(option, "",
+                     short_number(value) + " is out of range; from " + short_number(lo) + " to " + short_number(hi) +
+                         (unit.empty() ? "" : " " + unit));
   }
 }
 
@@ -85,8 +87,9 @@ std::filesystem::path built_in_scene() {
       return root / place;
     }
   }
-  throw InputError("--scene", "", "the built-in reading room is missing beside the program; build the target "
-                                  "vergence_assets, or name a .gltf or .glb file");
+  throw InputError("--scene", "",
+                   "the built-in reading room is missing beside the program; build the target "
+                   "vergence_assets, or name a .gltf or .glb file");
 }
 
 std::filesystem::path pipeline_cache_file() {

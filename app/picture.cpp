@@ -20,9 +20,10 @@ render::Image8 compose_display(const PictureLayout& layout, const render::Render
     const PictureColumn column = picture_column(layout, x);
     const render::Image8& view = frame.views[column.view].display;
     for (int y = 0; y < out.height; ++y) {
-      const auto to = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) + static_cast<std::size_t>(x));
-      const auto from =
-          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.width) + static_cast<std::size_t>(column.x));
+      const auto to =
+          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) + static_cast<std::size_t>(x));
+      const auto from = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.width) +
+                             static_cast<std::size_t>(column.x));
       for (std::size_t c = 0; c < 3; ++c) {
         out.rgb[to + c] = column.divider ? kDivider : view.rgb[from + c];
       }
@@ -49,8 +50,8 @@ render::FloatImage compose_channels(const PictureLayout& layout, const render::R
           static_cast<std::size_t>(y) * static_cast<std::size_t>(layout.width) + static_cast<std::size_t>(column.x);
       for (std::size_t c = 0; c < 3; ++c) {
         // A map has colours but no radiance: its display colours in linear light.
-        out.planes[c][to] = view.radiance.empty() ? render::srgb_decode(view.display.rgb[3 * from + c])
-                                                  : view.radiance[3 * from + c];
+        out.planes[c][to] =
+            view.radiance.empty() ? render::srgb_decode(view.display.rgb[3 * from + c]) : view.radiance[3 * from + c];
       }
       for (std::size_t c = 3; c < out.planes.size(); ++c) {
         out.planes[c][to] = (*planes[c - 3])[from];

@@ -46,12 +46,14 @@ struct RenderOptions {
   bool json = false;
 };
 
-const std::vector<std::string> kModes{"pinhole",       "adof", "dof", "power", "astigmatism",
-                                      "accommodation", "blur"};  // in the order of render::Mode
+const std::vector<std::string> kModes{"pinhole",     "adof",          "dof", "power",
+                                      "astigmatism", "accommodation", "blur"};  // in the order of render::Mode
 
 constexpr int kMostSamples = 65536, kDefaultSamples = 64, kSamplesForTarget = 4096;
 
-bool is_exr(const std::string& output) { return std::filesystem::path(output).extension() == ".exr"; }
+bool is_exr(const std::string& output) {
+  return std::filesystem::path(output).extension() == ".exr";
+}
 
 // Said before minutes of work rather than after.
 void check_place(const std::string& file) {
@@ -120,7 +122,9 @@ render::FrameConfig frame_config(const RenderOptions& options, const RenderSetup
   return config;
 }
 
-std::string map_unit(Mode mode) { return mode == Mode::blur ? "arcmin" : "D"; }
+std::string map_unit(Mode mode) {
+  return mode == Mode::blur ? "arcmin" : "D";
+}
 
 void write_picture(const RenderOptions& options, const PictureLayout& layout, const render::RenderedFrame& frame,
                    Mode mode) {
@@ -141,15 +145,12 @@ render::Progress progress_bar(bool wanted) {
   if (!wanted || ::isatty(STDERR_FILENO) == 0) {
     return {};
   }
-  return [](int done, int of) {
-    std::fprintf(stderr, "\r%d of %d samples%s", done, of, done == of ? "\n" : "");
-  };
+  return [](int done, int of) { std::fprintf(stderr, "\r%d of %d samples%s", done, of, done == of ? "\n" : ""); };
 }
 
 int render_picture(const RenderOptions& options) {
   check_options(options);
-  const std::string scene_file =
-      options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
+  const std::string scene_file = options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
   const render::Scene scene = render::read_gltf(scene_file);
   const RenderSetup setup = make_render_setup(options.scene, scene);
   const render::FrameConfig config = frame_config(options, setup);
@@ -207,9 +208,10 @@ void add_scene_options(CLI::App& command, SceneOptions& scene) {
   command.add_option("--wearer", scene.wearer, "Wearer file [35 years, emmetropic]");
   command.add_option("--spectacles", scene.spectacles, "Spectacles file, or none")->capture_default_str();
   command.add_option("--compare", scene.compare, "A second pair: A left, B right of a divider in each eye");
-  command.add_option("--viewing", scene.viewing,
-                     "fixed: all rays from the primary-gaze pupil; scanning: the eye turns to each pixel; gaze: one\n"
-                     "pupil turned to the gaze, one accommodation state")
+  command
+      .add_option("--viewing", scene.viewing,
+                  "fixed: all rays from the primary-gaze pupil; scanning: the eye turns to each pixel; gaze: one\n"
+                  "pupil turned to the gaze, one accommodation state")
       ->check(CLI::IsMember({"fixed", "scanning", "gaze"}))
       ->capture_default_str();
   command.add_option("--headset", scene.headset, "Headset file: pixels lie on its virtual image, light sets the pupil");
@@ -237,29 +239,34 @@ Action add_render_command(CLI::App& program) {
       "    --spectacles assets/spectacles/presbyopia_bspline_sphere.json --look-at near_card --output near.png\n"
       "The picture is centred on the gaze; head and lens stay where they are.");
   add_scene_options(*command, options->scene);
-  command->add_option("--mode", options->mode, "What the picture shows")->check(CLI::IsMember(kModes))->capture_default_str();
+  command->add_option("--mode", options->mode, "What the picture shows")
+      ->check(CLI::IsMember(kModes))
+      ->capture_default_str();
   command->add_option("--accuracy", options->accuracy, "Rung of the accuracy ladder")
       ->check(CLI::IsMember({"standard"}))
       ->capture_default_str();
   command->add_option("--threshold", options->threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
       ->capture_default_str();
   command->add_flag("--all-effects", options->all_effects, "Draw every blur, however small");
-  command->add_option("--output-space", options->output_space,
-                      "display or retina; the effects drawn so far look the same in both")
+  command
+      ->add_option("--output-space", options->output_space,
+                   "display or retina; the effects drawn so far look the same in both")
       ->check(CLI::IsMember({"display", "retina"}))
       ->capture_default_str();
   command->add_option("--exposure", options->exposure, "EV; fixed for the whole run")->capture_default_str();
   auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64]");
-  command->add_option("--target-error", options->target_error,
-                      "Stop when the standard error of the mean luminance falls below this (dof)")
+  command
+      ->add_option("--target-error", options->target_error,
+                   "Stop when the standard error of the mean luminance falls below this (dof)")
       ->excludes(samples);
   command->add_option("--range", options->range, "LO,HI of a map, D or arcmin [from the picture]");
   command->add_option("--colormap", options->colour_map, "hsv (as in the paper) or viridis (perceptual)")
       ->check(CLI::IsMember({"hsv", "viridis"}))
       ->capture_default_str();
   command->add_option("--output", options->output, "FILE.png (sRGB) or FILE.exr (linear)")->capture_default_str();
-  command->add_option("--channels", options->channels,
-                      "rgb, or all (EXR: depth, V.hh, V.hv, V.vv, blur, accommodation too)")
+  command
+      ->add_option("--channels", options->channels,
+                   "rgb, or all (EXR: depth, V.hh, V.hv, V.vv, blur, accommodation too)")
       ->check(CLI::IsMember({"rgb", "all"}))
       ->capture_default_str();
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");

@@ -130,14 +130,16 @@ std::string to_table(const RenderReport& report) {
   if (report.is_map) {
     out << "map from " << report.range_low << " to " << report.range_high << " " << report.range_unit << "\n";
   }
-  out << "\neye    gaze yaw,pitch deg  fixation m  power D  astig D  demand D  accomm D  residual D  blur arcmin  pair\n";
+  out << "\neye    gaze yaw,pitch deg  fixation m  power D  astig D  demand D  accomm D  residual D  blur arcmin  "
+         "pair\n";
   for (const SightRow& row : report.sight) {
     out << std::left << std::setw(6) << row.eye << std::right << fixed_number(row.yaw_deg, 2, 9) << ","
-        << fixed_number(row.pitch_deg, 2, 7) << "    " << distance_text(row.distance_m) << fixed_number(row.power_D, 2, 11)
-        << fixed_number(row.astigmatism_D, 2, 9) << fixed_number(row.demand_D, 2, 10)
-        << fixed_number(row.accommodation_D, 2, 10) << fixed_number(row.residual_D, 2, 12)
-        << fixed_number(row.blur_major_arcmin, 1, 7) << " x" << fixed_number(row.blur_minor_arcmin, 1, 5) << "  "
-        << row.pair << (row.status == "ok" ? "" : " (" + row.status + ")") << "\n";
+        << fixed_number(row.pitch_deg, 2, 7) << "    " << distance_text(row.distance_m)
+        << fixed_number(row.power_D, 2, 11) << fixed_number(row.astigmatism_D, 2, 9)
+        << fixed_number(row.demand_D, 2, 10) << fixed_number(row.accommodation_D, 2, 10)
+        << fixed_number(row.residual_D, 2, 12) << fixed_number(row.blur_major_arcmin, 1, 7) << " x"
+        << fixed_number(row.blur_minor_arcmin, 1, 5) << "  " << row.pair
+        << (row.status == "ok" ? "" : " (" + row.status + ")") << "\n";
   }
   out << "\nstage      median ms     min ms     max ms\n";
   for (const StageRow& row : report.stages) {
@@ -183,7 +185,9 @@ std::string to_json(const RenderReport& report) {
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-void check_timings(const std::string& file) { static_cast<void>(read_timings(file)); }
+void check_timings(const std::string& file) {
+  static_cast<void>(read_timings(file));
+}
 
 void append_timings(const std::string& file, const RenderReport& report) {
   std::string text = read_timings(file);

@@ -53,8 +53,9 @@ const render::Target& find_target(const std::string& name, const render::Scene& 
     }
     known += (known.empty() ? "" : ", ") + target.name;
   }
-  throw InputError("--look-at", "", "'" + name + "' is not a target of the scene; " +
-                                        (known.empty() ? "it has none" : "it has " + known));
+  throw InputError(
+      "--look-at", "",
+      "'" + name + "' is not a target of the scene; " + (known.empty() ? "it has none" : "it has " + known));
 }
 
 lenses::f64::EyeData eye_of(const lenses::Wearer& wearer, std::size_t side,
@@ -80,8 +81,7 @@ WornPair wear(RenderSetup& setup, const std::optional<lenses::Spectacles>& spect
     const auto i = static_cast<std::size_t>(side);
     const lenses::Lens* lens = spectacles ? &spectacles->lens[i] : nullptr;
     try {
-      pair.lens[i] =
-          lenses::append_lens(setup.lenses, lens, side, setup.wearer.eye[i].entrance_pupil_depth);
+      pair.lens[i] = lenses::append_lens(setup.lenses, lens, side, setup.wearer.eye[i].entrance_pupil_depth);
     } catch (const std::invalid_argument& error) {
       throw InputError(file, side == Side::right ? "right" : "left", error.what());
     }
@@ -127,7 +127,8 @@ render::ViewSetup view_of(const RenderSetup& setup, const WornPair& pair, Side s
   view.world_from_eye = pair.eyes[i].world_from_eye;
   view.view.gaze = pair.fixation.line[i].gaze;
   view.view.head_from_view.orientation = glm::quat_cast(tracking::listing_rotation(view.view.gaze));
-  view.view.fov = tracking::FieldOfView::symmetric(fov_deg * kRadians, static_cast<double>(setup.size[0]) / setup.size[1]);
+  view.view.fov =
+      tracking::FieldOfView::symmetric(fov_deg * kRadians, static_cast<double>(setup.size[0]) / setup.size[1]);
   view.viewing = setup.viewing;
   if (setup.viewing == Viewing::gaze) {
     view.accommodation = pair.fixation.accommodation[i];

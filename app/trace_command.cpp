@@ -36,6 +36,7 @@ class TraceSession {
       : options_(options), in_(in), lens_files_(base_folder(options.input)) {
     if (options.engine == "gpu") {
       device_ = std::make_unique<render::vk::Device>(open_device(options.device));
+      tracer_ = std::make_unique<render::GpuTracer>(*device_);
     }
   }
 
@@ -106,7 +107,7 @@ class TraceSession {
       }
     };
     if (device_) {
-      collect(render::trace_on_gpu(*device_, batch_));
+      collect(tracer_->trace(batch_));
     } else {
       collect(lenses::trace_reference(batch_));
     }
@@ -128,6 +129,7 @@ class TraceSession {
   std::istream& in_;
   lenses::LensCache lens_files_;
   std::unique_ptr<render::vk::Device> device_;
+  std::unique_ptr<render::GpuTracer> tracer_;
   lenses::TraceBatch batch_;
   std::vector<Answer> answers_;
   std::size_t line_number_ = 0;

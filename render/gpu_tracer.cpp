@@ -42,22 +42,28 @@ std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
   return kinds;
 }
 
-std::vector<lenses::f32::TraceOutput> trace_on_gpu(vk::Device& device, const lenses::TraceBatch& batch) {
+std::vector<lenses::f32::TraceOutput> GpuTracer::trace(const lenses::TraceBatch& batch) {
   using lenses::f32::TraceInput;
   using lenses::f32::TraceOutput;
   std::vector<TraceOutput> results;
   if (batch.rays.empty()) {
     return results;
   }
-  const std::array<std::uint32_t, 1> specialization{surface_kinds(batch.model.lens)};
-  const std::array bindings{vk::Binding::texel_rgba32f, vk::Binding::storage_buffer, vk::Binding::storage_buffer,
-                            vk::Binding::storage_buffer, vk::Binding::storage_buffer};
-  const vk::Kernel kernel(device, shaders::trace, bindings, sizeof(std::uint32_t), specialization, "trace");
+  const std::uint32_t kinds = surface_kinds(batch.model.lens);
+  auto found = kernels_.find(kinds);
+  if (found == kernels_.end()) {
+    const std::array bindings{vk::Binding::texel_rgba32f, vk::Binding::storage_buffer, vk::Binding::storage_buffer,
+                              vk::Binding::storage_buffer, vk::Binding::storage_buffer};
+    found = kernels_
+                .emplace(kinds, vk::Kernel(device_, shaders::trace, bindings, sizeof(std::uint32_t),
+                                           std::span(&kinds, 1), "trace"))
+                .first;
+  }
   std::vector<glm::vec4> entries = lenses::to_float(batch.model.table);
   entries.resize(std::max<std::size_t>(entries.size(), 1));
-  const vk::Buffer table = filled(device, entries);
-  const vk::Buffer lens_buffer = filled(device, rounded<lenses::f32::LensData>(batch.model.lens));
-  const vk::Buffer eye_buffer = filled(device, rounded<lenses::f32::EyeData>(batch.eyes));
+  const vk::Buffer table = filled(device_, entries);
+  const vk::Buffer lens_buffer = filled(device_, rounded<lenses::f32::LensData>(batch.model.lens));
+  const vk::Buffer eye_buffer = filled(device_, rounded<lenses::f32::EyeData>(batch.eyes));
   results.reserve(batch.rays.size());
   for (std::size_t first = 0; first < batch.rays.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, batch.rays.size() - first);
@@ -67,13 +73,13 @@ std::vector<lenses::f32::TraceOutput> trace_on_gpu(vk::Device& device, const len
       const auto& ray = batch.rays[i];
       rays.push_back({glm::vec4(ray.direction), glm::vec4(ray.gaze), ray.which});
     }
-    const vk::Buffer input = filled(device, rays);
-    const vk::Buffer output(device, count * sizeof(TraceOutput), vk::Memory::readback);
-    vk::Commands commands(device);
+    const vk::Buffer input = filled(device_, rays);
+    const vk::Buffer output(device_, count * sizeof(TraceOutput), vk::Memory::readback);
+    vk::Commands commands(device_);
     const auto ray_count = static_cast<std::uint32_t>(count);
-    commands.dispatch(kernel, {&table, &lens_buffer, &eye_buffer, &input, &output}, vk::bytes_of(ray_count),
+    commands.dispatch(found->second, {&table, &lens_buffer, &eye_buffer, &input, &output}, vk::bytes_of(ray_count),
                       (ray_count + kGroup - 1) / kGroup);
-    device.run(commands);
+    device_.run(commands);
     std::ranges::copy(output.read<TraceOutput>(count), std::back_inserter(results));
   }
   return results;

@@ -1,15 +1,28 @@
 // The GPU engine of the `trace` command: batches of rays through lenses with the functions that the render kernels use.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <vector>
 
 #include "lenses/trace.hpp"
 #include "render/vk/device.hpp"
+#include "render/vk/kernel.hpp"
 
 namespace render {
 
-// One record a ray, in order; batches beyond the device's buffers are split. Throws vk::DeviceError.
-[[nodiscard]] std::vector<lenses::f32::TraceOutput> trace_on_gpu(vk::Device& device, const lenses::TraceBatch& batch);
+class GpuTracer {
+ public:
+  explicit GpuTracer(vk::Device& device) : device_(device) {}
+
+  // One record a ray, in order; batches beyond the device's buffers are split. Throws vk::DeviceError. The kernel for a
+  // set of surface kinds is compiled when first needed.
+  [[nodiscard]] std::vector<lenses::f32::TraceOutput> trace(const lenses::TraceBatch& batch);
+
+ private:
+  vk::Device& device_;
+  std::map<std::uint32_t, vk::Kernel> kernels_;  // by surface kinds
+};
 
 // Bit k is set if some lens has a surface of kind k: the specialisation constant kSurfaceKinds.
 [[nodiscard]] std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses);

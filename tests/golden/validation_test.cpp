@@ -52,7 +52,7 @@ TEST(Validation, IsSilentOverATraceOfRays) {
     request.direction = {0.01 * i - 0.5, 0.02, -1.0};
     lenses::append_request(batch, request);
   }
-  EXPECT_EQ(render::trace_on_gpu(device, batch).size(), 100U);
+  EXPECT_EQ(render::GpuTracer(device).trace(batch).size(), 100U);
   expect_silence(device);
 }
 

@@ -15,7 +15,7 @@ TEST(GpuEngine, ReproducesEveryTracedCase) {
     lenses::append_request(batch, c.request);
   }
   render::vk::Device device;
-  const auto records = render::trace_on_gpu(device, batch);
+  const auto records = render::GpuTracer(device).trace(batch);
   ASSERT_EQ(records.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     support::expect_case(cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),

@@ -91,12 +91,13 @@ void count(const std::vector<Record>& records, const lenses::TraceBatch& batch, 
 
 TEST(RandomRays, GiveFiniteOutputsWhateverTheLens) {
   render::vk::Device device;
+  render::GpuTracer tracer(device);
   Tally reference;
   Tally gpu;
   for (std::uint64_t seed = 1; seed <= kLensBatches; ++seed) {
     const lenses::TraceBatch batch = absurd_batch(seed);
     count(lenses::trace_reference(batch), batch, seed, "reference", reference);
-    count(render::trace_on_gpu(device, batch), batch, seed, "gpu", gpu);
+    count(tracer.trace(batch), batch, seed, "gpu", gpu);
   }
   EXPECT_EQ(reference.bad, 0U);
   EXPECT_EQ(gpu.bad, 0U);
@@ -124,7 +125,7 @@ TEST(RandomRays, AgreeOnLensesThatCouldBeWorn) {
   }
   render::vk::Device device;
   const auto reference = lenses::trace_reference(batch);
-  const auto gpu = render::trace_on_gpu(device, batch);
+  const auto gpu = render::GpuTracer(device).trace(batch);
   std::size_t compared = 0;
   std::size_t status_differs = 0;
   double worst = 0.0;

@@ -17,8 +17,14 @@ enum class Engine { reference, gpu };
 
 class BothEngines : public testing::TestWithParam<Engine> {
  protected:
-  static void SetUpTestSuite() { device_ = std::make_unique<render::vk::Device>(); }
-  static void TearDownTestSuite() { device_.reset(); }
+  static void SetUpTestSuite() {
+    device_ = std::make_unique<render::vk::Device>();
+    tracer_ = std::make_unique<render::GpuTracer>(*device_);
+  }
+  static void TearDownTestSuite() {
+    tracer_.reset();
+    device_.reset();
+  }
 
   [[nodiscard]] static std::vector<lenses::TraceResult> trace(const std::vector<lenses::TraceRequest>& requests) {
     lenses::TraceBatch batch;
@@ -34,7 +40,7 @@ class BothEngines : public testing::TestWithParam<Engine> {
     if (is_reference()) {
       collect(lenses::trace_reference(batch));
     } else {
-      collect(render::trace_on_gpu(*device_, batch));
+      collect(tracer_->trace(batch));
     }
     return results;
   }
@@ -81,6 +87,7 @@ class BothEngines : public testing::TestWithParam<Engine> {
 
  private:
   static inline std::unique_ptr<render::vk::Device> device_;
+  static inline std::unique_ptr<render::GpuTracer> tracer_;
 };
 
 inline std::string engine_name(const testing::TestParamInfo<Engine>& instance) {

@@ -29,7 +29,7 @@ std::vector<double> numbers_of(const std::string& option, const std::string& tex
   const char* end = at + text.size();
   const auto refuse = [&] { throw InputError(option, "", "'" + text + "' is not " + form); };
   while (true) {
-    if (at != end && *at == '+') {
+    if (at != end && *at == '+' && at + 1 != end && at[1] != '-') {
       ++at;
     }
     double value = 0.0;

@@ -10,8 +10,8 @@
 namespace app {
 
 struct PictureLayout {
-  int width = 0, height = 0;      // of a view
-  std::size_t pairs = 1;          // 1, or 2 for A against B
+  int width = 0, height = 0;  // of a view
+  std::size_t pairs = 1;      // 1, or 2 for A against B
   std::size_t sides = 1;
   [[nodiscard]] int picture_width() const { return width * static_cast<int>(sides); }
 };

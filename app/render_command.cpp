@@ -75,6 +75,9 @@ void check_options(const RenderOptions& options) {
   if (!options.timings.empty()) {
     check_place(options.timings);
     check_timings(options.timings);
+    if (std::filesystem::weakly_canonical(options.timings) == std::filesystem::weakly_canonical(options.output)) {
+      throw InputError("--timings", "", "'" + options.timings + "' is also the --output; name another file");
+    }
   }
   if (options.channels == "all" && !is_exr(options.output)) {
     throw InputError("--channels", "", "all needs an .exr --output; a .png holds the picture only");
@@ -145,7 +148,7 @@ render::Progress progress_bar(bool wanted) {
   if (!wanted || ::isatty(STDERR_FILENO) == 0) {
     return {};
   }
-  return [](int done, int of) { std::fprintf(stderr, "\r%d of %d samples%s", done, of, done == of ? "\n" : ""); };
+  return [](int done, int of) { std::fprintf(stderr, "\r%d of at most %d samples", done, of); };
 }
 
 int render_picture(const RenderOptions& options) {
@@ -170,7 +173,11 @@ int render_picture(const RenderOptions& options) {
     static_cast<void>(draw({}));
   }
   for (int i = 0; i < options.repeat; ++i) {
-    frame = draw(progress_bar(config.mode == Mode::dof));
+    const render::Progress progress = progress_bar(config.mode == Mode::dof);
+    frame = draw(progress);
+    if (progress) {
+      std::fputc('\n', stderr);
+    }
     runs.push_back(frame.stages);
   }
   close_device(device);
@@ -253,7 +260,10 @@ Action add_render_command(CLI::App& program) {
                    "display or retina; the effects drawn so far look the same in both")
       ->check(CLI::IsMember({"display", "retina"}))
       ->capture_default_str();
-  command->add_option("--exposure", options->exposure, "EV; fixed for the whole run")->capture_default_str();
+  command
+      ->add_option("--exposure", options->exposure,
+                   "EV of a .png, fixed for the whole run; an .exr holds radiance as it is")
+      ->capture_default_str();
   auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64]");
   command
       ->add_option("--target-error", options->target_error,

@@ -38,22 +38,21 @@ SightRow sight_row(const RenderSetup& setup, const WornPair& pair, std::size_t s
   row.pitch_deg = std::asin(std::clamp(line.gaze.y, -1.0, 1.0)) * kDegrees;
   row.distance_m = pair.fixation.distance;
   row.demand_D = pair.fixation.demand[side];
-  const double q = 1.0 / std::max(glm::length(pair.fixation.point - line.start), 1e-6);
+  const double q = 1.0 / std::max(glm::length(line.point - line.start), 1e-6);
   const lenses::f64::TraceInput ray{glm::dvec4(line.gaze, q), glm::dvec4(line.gaze, 0.0),
                                     glm::ivec4(0, 0, static_cast<int>(setup.viewing), 0)};
   lenses::f64::LensData lens = eye.lens;
   if (!line.through_lens) {
     lens.glass.w = 0.0;
   }
-  lenses::f64::EyeData fixed = eye.eye;
-  const auto record = lenses::f64::trace_record(lenses::f64::Table{setup.lenses.table}, lens, fixed, ray);
+  const auto record = lenses::f64::trace_record(lenses::f64::Table{setup.lenses.table}, lens, eye.eye, ray);
   const auto result = lenses::to_result(record, ray, line.through_lens);
   row.status = lenses::name(result.status);
   row.power_D = result.power;
   row.astigmatism_D = result.astigmatism;
   row.accommodation_D =
       setup.viewing == render::Viewing::gaze ? pair.fixation.accommodation[side] : result.accommodation;
-  const auto response = lenses::f64::eye_response(result.vergence, fixed, row.accommodation_D);
+  const auto response = lenses::f64::eye_response(result.vergence, eye.eye, row.accommodation_D);
   row.residual_D = 0.5 * (response.residual.x + response.residual.z);
   row.blur_major_arcmin = response.blur.x * kArcminutes;
   row.blur_minor_arcmin = response.blur.y * kArcminutes;
@@ -62,9 +61,12 @@ SightRow sight_row(const RenderSetup& setup, const WornPair& pair, std::size_t s
 
 // The table so far, or the header of a new one.
 std::string read_timings(const std::string& file) {
-  std::ifstream old(file, std::ios::binary);
-  if (!old) {
+  if (!std::filesystem::exists(file)) {
     return std::string(kTimingsHeader) + "\n";
+  }
+  std::ifstream old(file, std::ios::binary);
+  if (!old || !std::filesystem::is_regular_file(file)) {
+    throw tracking::InputError(file, "", "cannot be read; an earlier timing table or no file is expected");
   }
   std::string text(std::istreambuf_iterator<char>(old), {});
   if (!text.starts_with(kTimingsHeader)) {

@@ -13,12 +13,12 @@ namespace app {
 // One eye on the fixated point.
 struct SightRow {
   std::string pair, eye;
-  double yaw_deg = 0.0, pitch_deg = 0.0;      // gaze before the lens, head axes
-  double distance_m = 0.0;                    // fixation, from the midpoint between the eyes; infinite: sky
+  double yaw_deg = 0.0, pitch_deg = 0.0;  // gaze before the lens, head axes
+  double distance_m = 0.0;                // fixation, from the midpoint between the eyes; infinite: sky
   std::string status;
   double power_D = 0.0, astigmatism_D = 0.0;  // of the wavefront at the pupil
   double demand_D = 0.0, accommodation_D = 0.0;
-  double residual_D = 0.0;                    // mean
+  double residual_D = 0.0;                                  // mean
   double blur_major_arcmin = 0.0, blur_minor_arcmin = 0.0;  // semi-axes
 };
 

@@ -21,6 +21,7 @@ using tracking::Side;
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kLargestGaze_deg = 45.0;
+constexpr double kNearestTarget_m = 0.02;  // spectacles and eye lie within
 // The field that a headset's picture fills, for the pupil's size: a circle 60 degrees across.
 constexpr double kHeadsetField_deg2 = std::numbers::pi * 30.0 * 30.0;
 
@@ -104,18 +105,18 @@ void look(WornPair& pair, const RenderSetup& setup, const SceneOptions& options,
   const lenses::f64::Table table{setup.lenses.table};
   if (!options.look_at.empty()) {
     const glm::dvec3 target = find_target(options.look_at, scene).position;
+    for (const render::EyeOptics& eye : pair.eyes) {
+      if (!(glm::length(target - eye.world_from_eye.position) >= kNearestTarget_m)) {
+        throw InputError("--look-at", "", "'" + options.look_at + "' lies within 20 mm of a pupil; move --pose away");
+      }
+    }
     const double distance = glm::length(target - world_from_head.position);
     pair.fixation = render::fixate(table, pair.eyes, setup.viewing, target, distance);
     return;
   }
   const glm::dvec3 gaze = gaze_direction(options);
-  pair.fixation = render::fixate_along(table, pair.eyes, setup.viewing, gaze, query);
-  if (setup.viewing != Viewing::gaze) {
-    // An inspection view has no fixated point to converge on: both pictures are centred on the direction itself.
-    for (std::size_t i = 0; i < 2; ++i) {
-      pair.fixation.line[i] = render::look_along(table, pair.eyes[i], setup.viewing, gaze);
-    }
-  }
+  pair.fixation = setup.viewing == Viewing::gaze ? render::fixate_along(table, pair.eyes, setup.viewing, gaze, query)
+                                                 : render::look_parallel(table, pair.eyes, setup.viewing, gaze, query);
 }
 
 render::ViewSetup view_of(const RenderSetup& setup, const WornPair& pair, Side side, double fov_deg,

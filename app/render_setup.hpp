@@ -18,15 +18,15 @@ namespace app {
 
 // Options shared by the commands that show a scene.
 struct SceneOptions {
-  std::string scene;                   // empty: the built-in reading room
-  std::string wearer;                  // empty: 35 years, emmetropic
+  std::string scene;   // empty: the built-in reading room
+  std::string wearer;  // empty: 35 years, emmetropic
   std::string spectacles = "none";
-  std::string compare;                 // a second pair, empty: none
-  std::string headset;                 // empty: a desktop picture
+  std::string compare;  // a second pair, empty: none
+  std::string headset;  // empty: a desktop picture
   std::string viewing = "gaze";
-  std::string gaze = "0,0";            // yaw, pitch in degrees
-  std::string look_at;                 // a target's name
-  std::string pose;                    // x, y, z, yaw, pitch; empty: the scene's own
+  std::string gaze = "0,0";  // yaw, pitch in degrees
+  std::string look_at;       // a target's name
+  std::string pose;          // x, y, z, yaw, pitch; empty: the scene's own
   std::string size = "1024x1024";
   double fov_deg = 60.0;
   std::string eye = "both";
@@ -35,8 +35,8 @@ struct SceneOptions {
 // A pair on the wearer's nose, looking at something.
 struct WornPair {
   std::string name;
-  std::array<render::EyeOptics, 2> eyes;     // indexed by Side
-  std::array<std::size_t, 2> lens;           // indices into the model
+  std::array<render::EyeOptics, 2> eyes;  // indexed by Side
+  std::array<std::size_t, 2> lens;        // indices into the model
   glm::dvec3 tint{1.0};
   render::Fixation fixation;
 };
@@ -44,11 +44,11 @@ struct WornPair {
 struct RenderSetup {
   lenses::Wearer wearer;
   lenses::LensModel lenses;
-  std::vector<WornPair> pairs;               // one, or A and B
-  std::vector<tracking::Side> sides;         // the eyes shown, in the picture's order from the left
+  std::vector<WornPair> pairs;        // one, or A and B
+  std::vector<tracking::Side> sides;  // the eyes shown, in the picture's order from the left
   std::array<int, 2> size{};
   render::Viewing viewing = render::Viewing::gaze;
-  std::vector<render::ViewSetup> views;      // pairs x sides, pair by pair
+  std::vector<render::ViewSetup> views;  // pairs x sides, pair by pair
 };
 
 [[nodiscard]] render::Viewing viewing_of(const std::string& name);

@@ -122,7 +122,7 @@ class TraceSession {
       throw std::runtime_error("standard output: cannot be written");
     }
     answers_.clear();
-    batch_ = {};
+    lenses::next_batch(batch_);
   }
 
   const TraceOptions& options_;

@@ -108,15 +108,31 @@ void append_lookup(f64::SurfaceData& s, const Cells& u, const Cells& v, std::vec
     }
   }
   s.domain = glm::dvec4(low.x, high.x, low.y, high.y);
-  const glm::dvec2 step = (high - low) / static_cast<double>(f64::kLookupSize);
-  s.offset.w = to_int(table.size());
-  for (int ix = 0; ix < f64::kLookupSize; ++ix) {
-    for (int iy = 0; iy < f64::kLookupSize; ++iy) {
-      const glm::dvec2 middle = low + step * glm::dvec2(ix + 0.5, iy + 0.5);
-      const auto nearest = std::ranges::min_element(
-          samples, {}, [&](const Sample& sample) { return dot(sample.xy - middle, sample.xy - middle); });
-      table.emplace_back(nearest->uv, 0.0, 0.0);
+  constexpr int kSize = f64::kLookupSize;
+  const glm::dvec2 step = (high - low) / static_cast<double>(kSize);
+  const auto middle = [&](int ix, int iy) { return low + step * glm::dvec2(ix + 0.5, iy + 0.5); };
+  const auto nearest = [](const std::vector<Sample>& from, const glm::dvec2& point) {
+    return *std::ranges::min_element(from, {},
+                                     [&](const Sample& sample) { return dot(sample.xy - point, sample.xy - point); });
+  };
+  std::vector<std::vector<Sample>> squares(static_cast<std::size_t>(kSize * kSize));
+  for (const Sample& sample : samples) {
+    const glm::ivec2 at = glm::clamp(glm::ivec2((sample.xy - low) / step), 0, kSize - 1);
+    squares[static_cast<std::size_t>(at.x * kSize + at.y)].push_back(sample);
+  }
+  // The best of each square; a square that holds none takes the nearest of those.
+  std::vector<Sample> best;
+  for (int k = 0; k < kSize * kSize; ++k) {
+    std::vector<Sample>& square = squares[static_cast<std::size_t>(k)];
+    if (!square.empty()) {
+      best.push_back(nearest(square, middle(k / kSize, k % kSize)));
+      square = {best.back()};
     }
+  }
+  s.offset.w = to_int(table.size());
+  for (int k = 0; k < kSize * kSize; ++k) {
+    const std::vector<Sample>& square = squares[static_cast<std::size_t>(k)];
+    table.emplace_back((square.empty() ? nearest(best, middle(k / kSize, k % kSize)) : square.front()).uv, 0.0, 0.0);
   }
 }
 

@@ -1,13 +1,26 @@
 #include "lenses/trace.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace lenses {
 namespace {
 
+// Numbers that cross to the shaders.
+static_assert(f64::kStatusOk == static_cast<int>(RayStatus::ok) &&
+              f64::kStatusMissBack == static_cast<int>(RayStatus::miss_back) &&
+              f64::kStatusMissFront == static_cast<int>(RayStatus::miss_front) &&
+              f64::kStatusTirFront == static_cast<int>(RayStatus::tir_front) &&
+              f64::kStatusInverted == static_cast<int>(RayStatus::inverted) &&
+              f64::kStatusSingular == static_cast<int>(RayStatus::singular));
+static_assert(f64::kViewingFixed == static_cast<int>(tracking::Viewing::fixed) &&
+              f64::kViewingScanning == static_cast<int>(tracking::Viewing::scanning) &&
+              f64::kViewingGaze == static_cast<int>(tracking::Viewing::gaze));
+
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kRound = 1e-9;  // D; below this a wavefront or a blur has no axis
+constexpr double kRound = 1e-9;         // D; below this a wavefront or a blur has no axis
+constexpr double kRoundInFloat = 1e-5;  // of the vergence; two semi-axes as close as that are equal to a float engine
 
 std::optional<double> axis_degrees(double axis, double difference) {
   if (!(difference >= kRound)) {
@@ -38,7 +51,10 @@ std::size_t lens_index_of(TraceBatch& batch, const TraceRequest& request) {
   constexpr std::size_t kRecent = 8;
   const double depth = request.eye.entrance_pupil_depth;
   if (!request.lens) {
-    return append_lens(batch.model, nullptr, request.side, depth);
+    if (!batch.bare) {
+      batch.bare = append_lens(batch.model, nullptr, request.side, depth);
+    }
+    return *batch.bare;
   }
   for (const TraceBatch::KnownLens& known : batch.recent) {
     if (known.side == request.side && known.entrance_pupil_depth == depth && known.lens == *request.lens) {
@@ -57,6 +73,17 @@ std::size_t lens_index_of(TraceBatch& batch, const TraceRequest& request) {
 
 double accommodation_amplitude_at(double age) {
   return 7.083 / (1.0 + std::exp(0.2031 * (age - 36.2) - 0.6109));
+}
+
+void next_batch(TraceBatch& batch) {
+  constexpr std::size_t kMostEntries = 1U << 20U;  // of the table: 32 MiB
+  constexpr std::size_t kMostLenses = 1U << 15U;
+  if (batch.model.table.size() > kMostEntries || batch.model.lens.size() > kMostLenses) {
+    batch = {};
+    return;
+  }
+  batch.eyes.clear();
+  batch.rays.clear();
 }
 
 void append_request(TraceBatch& batch, const TraceRequest& request) {
@@ -96,7 +123,9 @@ std::vector<f32::TraceOutput> trace_reference_float(const TraceBatch& batch) {
   return out;
 }
 
-TraceResult to_result(const f64::TraceOutput& record, const f64::TraceInput& ray, bool has_lens) {
+namespace {
+
+TraceResult result_of(const f64::TraceOutput& record, const f64::TraceInput& ray, bool has_lens, double rounding) {
   TraceResult result;
   result.status = static_cast<RayStatus>(record.status.x);
   result.has_lens = has_lens;
@@ -119,12 +148,22 @@ TraceResult to_result(const f64::TraceOutput& record, const f64::TraceInput& ray
   result.residual = glm::dvec3(record.residual);
   result.blur = glm::dvec2(record.blur);
   const glm::dvec3 r = f64::principal(result.residual);
-  result.blur_axis_deg = axis_degrees(record.residual.w, std::abs(std::abs(r.x) - std::abs(r.y)));
+  const double largest = std::max({1.0, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const double difference = std::abs(std::abs(r.x) - std::abs(r.y));
+  if (difference >= rounding * largest) {
+    result.blur_axis_deg = axis_degrees(record.residual.w, difference);
+  }
   return result;
 }
 
+}  // namespace
+
+TraceResult to_result(const f64::TraceOutput& record, const f64::TraceInput& ray, bool has_lens) {
+  return result_of(record, ray, has_lens, 0.0);
+}
+
 TraceResult to_result(const f32::TraceOutput& record, const f64::TraceInput& ray, bool has_lens) {
-  return to_result(widen(record), ray, has_lens);
+  return result_of(widen(record), ray, has_lens, kRoundInFloat);
 }
 
 }  // namespace lenses

@@ -2,6 +2,7 @@
 // shares (building the batch, reading an engine's records).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,10 +29,14 @@ struct TraceBatch {
   };
 
   std::vector<KnownLens> recent;
+  std::optional<std::size_t> bare;  // the index that stands for no lens
   LensModel model;
   std::vector<f64::EyeData> eyes;
   std::vector<f64::TraceInput> rays;
 };
+
+// Forgets the rays; the lenses stay, until they take so much memory that starting anew is cheaper.
+void next_batch(TraceBatch& batch);
 
 // Throws std::invalid_argument for a lens that cannot be modelled (see append_lens).
 void append_request(TraceBatch& batch, const TraceRequest& request);

@@ -26,14 +26,16 @@ LineOfSight to_world(const EyeOptics& eye, const SightLine& line, const glm::dve
   return out;
 }
 
-double demand_at(const lenses::f64::Table& table, const EyeOptics& eye, Viewing viewing, const LineOfSight& line,
-                 const glm::dvec3& point) {
-  const double q = 1.0 / std::max(glm::length(point - line.start), 1e-3);
+double demand_at(const lenses::f64::Table& table, const EyeOptics& eye, Viewing viewing, const LineOfSight& line) {
+  const double q = 1.0 / std::max(glm::length(line.point - line.start), 1e-3);
   glm::dvec3 vergence(-q, 0.0, -q);
   if (line.through_lens) {
     const SightLine sight = sight_line(table, eye, viewing, line.gaze);
     int status = lenses::f64::kStatusOk;
     vergence = lenses::f64::sight_line_vergence(lenses::f64::sight_line_transfer(eye.lens, sight), q, status);
+    if (status != lenses::f64::kStatusOk) {
+      return std::numeric_limits<double>::infinity();
+    }
   }
   return lenses::f64::accommodation_demand(vergence, eye.eye);
 }
@@ -75,24 +77,56 @@ LineOfSight look_at(const lenses::f64::Table& table, const EyeOptics& eye, Viewi
     return to_world(eye, line, through_lens);
   }
   const glm::dvec3 straight = solve(bare);
-  LineOfSight out = to_world(bare, sight_line(table, bare, viewing, straight), straight);
-  return out;
+  return to_world(bare, sight_line(table, bare, viewing, straight), straight);
 }
+
+namespace {
+
+// One neural drive for both eyes: it stops at the eye that asks for less, and each eye follows as far as it can.
+void accommodate(Fixation& fixation, const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes,
+                 Viewing viewing) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    fixation.demand[i] = demand_at(table, eyes[i], viewing, fixation.line[i]);
+  }
+  const double lesser = std::min(fixation.demand[0], fixation.demand[1]);
+  const double drive = std::isfinite(lesser) ? std::max(0.0, lesser) : 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    fixation.accommodation[i] = std::min(drive, eyes[i].eye.excess.w);
+  }
+}
+
+glm::dvec3 midpoint(const std::array<EyeOptics, 2>& eyes) {
+  return 0.5 * (eyes[0].world_from_eye.position + eyes[1].world_from_eye.position);
+}
+
+}  // namespace
 
 Fixation fixate(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes, Viewing viewing,
                 const glm::dvec3& point, double distance) {
   Fixation fixation;
-  fixation.point = point;
   fixation.distance = distance;
   for (std::size_t i = 0; i < 2; ++i) {
     fixation.line[i] = look_at(table, eyes[i], viewing, point);
-    fixation.demand[i] = demand_at(table, eyes[i], viewing, fixation.line[i], point);
+    fixation.line[i].point = point;
   }
-  // One neural drive for both eyes: it stops at the eye that asks for less.
-  const double drive = std::max(0.0, std::min(fixation.demand[0], fixation.demand[1]));
+  accommodate(fixation, table, eyes, viewing);
+  return fixation;
+}
+
+Fixation look_parallel(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes, Viewing viewing,
+                       const glm::dvec3& gaze, const RayQuery& scene) {
+  Fixation fixation;
+  fixation.distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 2; ++i) {
-    fixation.accommodation[i] = std::min(drive, eyes[i].eye.excess.w);
+    LineOfSight& line = fixation.line[i];
+    line = look_along(table, eyes[i], viewing, gaze);
+    const auto hit = scene.closest(line.start, line.direction);
+    line.point = line.start + (hit ? hit->distance : kSkyDistance) * line.direction;
+    if (hit) {
+      fixation.distance = std::min(fixation.distance, glm::length(line.point - midpoint(eyes)));
+    }
   }
+  accommodate(fixation, table, eyes, viewing);
   return fixation;
 }
 
@@ -103,9 +137,9 @@ Fixation fixate_along(const lenses::f64::Table& table, const std::array<EyeOptic
   const glm::dvec3 start = 0.5 * (right.start + left.start);
   const glm::dvec3 direction = glm::normalize(right.direction + left.direction);
   const auto hit = scene.closest(start, direction);
-  const double distance = hit ? hit->distance : kSkyDistance;
-  return fixate(table, eyes, viewing, start + distance * direction,
-                hit ? distance : std::numeric_limits<double>::infinity());
+  const glm::dvec3 point = start + (hit ? hit->distance : kSkyDistance) * direction;
+  return fixate(table, eyes, viewing, point,
+                hit ? glm::length(point - midpoint(eyes)) : std::numeric_limits<double>::infinity());
 }
 
 }  // namespace render

@@ -24,6 +24,7 @@ struct LineOfSight {
   bool through_lens = false;        // false: beside it, into its rim, or no lens
   glm::dvec3 start{0.0};            // of the ray into the scene, world
   glm::dvec3 direction{0.0};        // world, unit
+  glm::dvec3 point{0.0};            // what it looks at, world; far away for the sky
 };
 
 // The line of sight of an eye that looks along `gaze` (primary axes).
@@ -36,16 +37,20 @@ struct LineOfSight {
                                   const glm::dvec3& target);
 
 struct Fixation {
-  glm::dvec3 point{0.0};                  // world; far away for the sky
   double distance = 0.0;                  // m from the midpoint between the eyes, infinite for the sky
   std::array<LineOfSight, 2> line;        // indexed by Side
-  std::array<double, 2> demand{};         // accommodation each eye asks for, D, not limited
+  std::array<double, 2> demand{};         // accommodation each eye asks for, D, not limited; infinite if none
   std::array<double, 2> accommodation{};  // the state: the lesser demand, limited by each eye's own amplitude, D
 };
 
 // Both eyes on one point of the world.
 [[nodiscard]] Fixation fixate(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes, Viewing viewing,
                               const glm::dvec3& point, double distance);
+
+// Each eye along the same gaze (head axes) through its own lens, parallel, at whatever its line meets: the inspection
+// views, which have no fixated point in common.
+[[nodiscard]] Fixation look_parallel(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes,
+                                     Viewing viewing, const glm::dvec3& gaze, const RayQuery& scene);
 
 // One combined gaze (head axes, from midway between the eyes): each eye's lens turns it, the mean of the two refracted
 // directions meets the scene, and each eye's line is solved to that point.

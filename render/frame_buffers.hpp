@@ -17,7 +17,7 @@ struct FrameBuffers {
         has_wavefront(wavefront),
         has_sums(sums),
         pixels(device, count * kPixelBytes, vk::Memory::device),
-        keys(device, count * 4, vk::Memory::device),
+        keys(device, count * 8, vk::Memory::device),
         wavefronts(device, wavefront ? count * kWavefrontBytes : 16, vk::Memory::device),
         sums(device, sums ? count * 16 : 16, vk::Memory::device),
         radiance(device, count * 8, vk::Memory::device),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "render/scene_buffers.hpp"
 #include "render/vk/buffer.hpp"
 #include "render/vk/commands.hpp"
 #include "render/vk/kernel.hpp"
@@ -13,15 +14,6 @@ namespace {
 
 constexpr std::uint32_t kGroup = 64;       // local size of trace.comp.glsl
 constexpr std::size_t kChunk = 1U << 18U;  // rays a submission: 32 MiB of records
-
-template <class T>
-vk::Buffer filled(vk::Device& device, const std::vector<T>& values) {
-  vk::Buffer buffer(device, std::max<std::size_t>(values.size(), 1) * sizeof(T), vk::Memory::device);
-  if (!values.empty()) {
-    buffer.write(values);
-  }
-  return buffer;
-}
 
 template <class To, class From>
 std::vector<To> rounded(const std::vector<From>& values) {
@@ -59,11 +51,10 @@ std::vector<lenses::f32::TraceOutput> GpuTracer::trace(const lenses::TraceBatch&
                                            std::span(&kinds, 1), "trace"))
                 .first;
   }
-  std::vector<glm::vec4> entries = lenses::to_float(batch.model.table);
-  entries.resize(std::max<std::size_t>(entries.size(), 1));
-  const vk::Buffer table = filled(device_, entries);
-  const vk::Buffer lens_buffer = filled(device_, rounded<lenses::f32::LensData>(batch.model.lens));
-  const vk::Buffer eye_buffer = filled(device_, rounded<lenses::f32::EyeData>(batch.eyes));
+  const std::vector<glm::vec4> entries = lenses::to_float(batch.model.table);
+  const vk::Buffer table = filled_buffer(device_, entries);
+  const vk::Buffer lens_buffer = filled_buffer(device_, rounded<lenses::f32::LensData>(batch.model.lens));
+  const vk::Buffer eye_buffer = filled_buffer(device_, rounded<lenses::f32::EyeData>(batch.eyes));
   results.reserve(batch.rays.size());
   for (std::size_t first = 0; first < batch.rays.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, batch.rays.size() - first);
@@ -73,7 +64,7 @@ std::vector<lenses::f32::TraceOutput> GpuTracer::trace(const lenses::TraceBatch&
       const auto& ray = batch.rays[i];
       rays.push_back({glm::vec4(ray.direction), glm::vec4(ray.gaze), ray.which});
     }
-    const vk::Buffer input = filled(device_, rays);
+    const vk::Buffer input = filled_buffer(device_, rays);
     const vk::Buffer output(device_, count * sizeof(TraceOutput), vk::Memory::readback);
     vk::Commands commands(device_);
     const auto ray_count = static_cast<std::uint32_t>(count);

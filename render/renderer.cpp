@@ -13,6 +13,13 @@
 namespace render {
 namespace {
 
+// Numbers that cross to the shaders.
+static_assert(gpu::kModePinhole == static_cast<int>(Mode::pinhole) && gpu::kModeAdof == static_cast<int>(Mode::adof) &&
+              gpu::kModeDof == static_cast<int>(Mode::dof) && gpu::kModePower == static_cast<int>(Mode::power) &&
+              gpu::kModeAstigmatism == static_cast<int>(Mode::astigmatism) &&
+              gpu::kModeAccommodation == static_cast<int>(Mode::accommodation) &&
+              gpu::kModeBlur == static_cast<int>(Mode::blur));
+
 constexpr std::uint32_t kTile = 8;          // local size of the frame's kernels
 constexpr int kSamplesASubmission = 8;      // dof
 constexpr int kFewestSamplesToStopOn = 16;  // below, the error estimate itself is too rough
@@ -222,14 +229,19 @@ RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vecto
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);
   }
-  // One after the other, with one range for all.
+  // One after the other. A map's range spans them all, so it is found before any is coloured.
   RenderedFrame all;
   FrameConfig single = config;
+  if (is_map(config.mode) && !config.range) {
+    for (const ViewSetup& view : views) {
+      const MapRange range = state_->render_together(lenses, {view}, config, progress).range;
+      single.range = single.range
+                         ? MapRange{std::min(single.range->low, range.low), std::max(single.range->high, range.high)}
+                         : range;
+    }
+  }
   for (const ViewSetup& view : views) {
     RenderedFrame one = state_->render_together(lenses, {view}, single, progress);
-    if (is_map(config.mode)) {
-      single.range = one.range;
-    }
     all.range = one.range;
     all.samples = one.samples;
     all.error_estimate = std::max(all.error_estimate, one.error_estimate);

@@ -10,6 +10,11 @@
 namespace render {
 namespace {
 
+// Numbers that cross to the shaders.
+static_assert(gpu::kLightDirectional == static_cast<int>(Light::Type::directional) &&
+              gpu::kLightPoint == static_cast<int>(Light::Type::point) &&
+              gpu::kLightSpot == static_cast<int>(Light::Type::spot));
+
 // Textures in linear light, packed to four bytes: filtering is linear only on linear values.
 std::vector<std::uint32_t> pack_texels(const Scene& scene) {
   std::array<float, 256> linear{};

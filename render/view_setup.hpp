@@ -5,14 +5,13 @@
 #include <cstddef>
 #include <optional>
 
-#include "lenses/lens_io/trace_io.hpp"
 #include "lenses/lens_model.hpp"
 #include "render/frame_types.hpp"
 #include "tracking/stereo_view.hpp"
 
 namespace render {
 
-using Viewing = lenses::TraceRequest::Viewing;
+using tracking::Viewing;
 
 // A headset's pixels are points of its virtual image; a desktop picture has none.
 struct VirtualImage {

@@ -3,7 +3,6 @@
 // included here.
 #pragma once
 
-#include <array>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -12,6 +11,10 @@
 namespace tracking {
 
 enum class Side { right, left };
+
+// fixed: all rays start at the primary-gaze pupil; scanning: the eye turns to each direction; gaze: one pupil, turned
+// to the gaze.
+enum class Viewing { fixed, scanning, gaze };
 
 // A rigid pose: x_parent = orientation * x_child + position.
 struct Pose {
@@ -49,11 +52,6 @@ struct EyeView {
                         // start at the pupil
   FieldOfView fov;
   glm::dvec3 gaze{0.0, 0.0, -1.0};  // line of sight before the lens, head axes
-};
-
-struct StereoView {
-  Pose world_from_head;        // origin: midpoint between the two primary-gaze pupils
-  std::array<EyeView, 2> eye;  // indexed by Side
 };
 
 }  // namespace tracking

@@ -70,7 +70,7 @@ VG_FUNCTION RayTransfer sight_line_transfer(LensData lens, SightLine line) {
                        to_lens_direction(lens, frame * line.e_v));
 }
 
-// V of a point at distance 1/q along the object ray: hh, hv, vv (D). Sets `singular` in the line's stead.
+// V of a point at distance 1/q along the object ray: hh, hv, vv (D). `status` becomes singular where there is none.
 VG_FUNCTION vec3 sight_line_vergence(RayTransfer transfer, real q, VG_INOUT(int) status) {
   bool regular = true;
   mat2 v = vergence_matrix(transfer, q, regular);

@@ -16,7 +16,7 @@
 namespace lenses {
 
 struct TraceRequest {
-  enum class Viewing { fixed, scanning, gaze };
+  using Viewing = tracking::Viewing;
 
   std::string id_json = "null";  // the id as JSON text, to be written back as it is
   std::optional<Lens> lens;      // absent: bare eye

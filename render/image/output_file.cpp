@@ -34,8 +34,12 @@ void create_empty(const std::filesystem::path& file) {
 
 }  // namespace
 
-void replace_file(const std::filesystem::path& target,
+void replace_file(const std::filesystem::path& named,
                   const std::function<void(const std::filesystem::path& temporary)>& write) {
+  // A link stays a link: what it points to is replaced.
+  std::error_code unresolved;
+  const std::filesystem::path resolved = std::filesystem::weakly_canonical(named, unresolved);
+  const std::filesystem::path target = unresolved ? named : resolved;
   const std::filesystem::path temporary = temporary_beside(target);
   try {
     // A rename would fail on a directory only after all the work, and with a less plain reason.
@@ -46,11 +50,11 @@ void replace_file(const std::filesystem::path& target,
   } catch (const std::filesystem::filesystem_error& error) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw OutputError(target.string(), "", "cannot be written: " + error.code().message());
+    throw OutputError(named.string(), "", "cannot be written: " + error.code().message());
   } catch (const std::exception& error) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
-    throw OutputError(target.string(), "", std::string("cannot be written: ") + error.what());
+    throw OutputError(named.string(), "", std::string("cannot be written: ") + error.what());
   }
 }
 

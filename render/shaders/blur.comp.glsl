@@ -56,7 +56,7 @@ void main() {
   float weight = 1.0;
   if (reach >= frame.limits.x) {
     float minor = max(centre.ellipse.x + centre.ellipse.z - reach, 0.5);
-    int taps = int(clamp(3.0 * reach * minor, 16.0, 128.0));
+    int taps = int(clamp(3.0 * reach * minor, 16.0, 512.0));  // about one a pixel of the ellipse
     float here = nearness(centre.depth);
     vec2 turn = vec2(1.0, 0.0);
     const vec2 golden = vec2(-0.7373688780783197, 0.6754902942615238);
@@ -75,7 +75,6 @@ void main() {
       weight += w;
     }
     if (centre.depth >= 0.0) {
-      // The centre's own share is that of one tap among many; it was counted once above.
       sum /= weight;
     } else {
       sum = centre.radiance;

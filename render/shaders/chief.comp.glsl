@@ -11,7 +11,7 @@ layout(constant_id = 2) const uint kKeepWavefront = 0u;   // 1: write the wavefr
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 10) writeonly buffer Pixels { uvec4 pixels[]; };
-layout(std430, binding = 11) writeonly buffer Keys { uint keys[]; };
+layout(std430, binding = 11) writeonly buffer Keys { uvec2 keys[]; };
 layout(std430, binding = 12) writeonly buffer Wavefronts { vec4 wavefronts[]; };
 
 void main() {

@@ -24,10 +24,11 @@ uint hash(uint x) {
 // The four-dimensional additive recurrence with the generalised golden ratio, shifted by a pixel's own phase. The
 // phase depends on the pixel alone: both eyes see the same pattern.
 vec4 low_discrepancy(uint index, uvec2 pixel, uint seed) {
-  const vec4 step = vec4(0.8566748838545029, 0.7338918566271260, 0.6287067210378087, 0.5385972572236101);
+  // The powers of 1/1.16730..., in units of 2^-32, so that no index loses digits.
+  const uvec4 step = uvec4(3679390609u, 3152041523u, 2700274806u, 2313257605u);
   uint h = hash(pixel.x + 65536u * pixel.y + seed * 0x9e3779b9u);
-  vec4 phase = vec4(float(h & 0xffffu), float(h >> 16), float(hash(h) & 0xffffu), float(hash(h) >> 16)) / 65536.0;
-  return fract(phase + fract(float(index & 0xffffu) * step));
+  uvec4 phase = uvec4(h, hash(h + 1u), hash(h + 2u), hash(h + 3u));
+  return vec4((phase + index * step) >> 8) / 16777216.0;
 }
 
 // Area-preserving map of the unit square to the unit disc (Shirley and Chiu 1997).

@@ -1,28 +1,34 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pixels at an edge - another material, face, status or depth beside them - get four rays more, on a rotated grid; the
-// radiance becomes the mean over the pixel's square, the filter that every mode integrates.
+// Pixels at an edge - another material, face, status, depth or a jump of radiance beside them - get four rays more, on a
+// rotated grid; the radiance becomes the mean over the pixel's square, the filter that every mode integrates.
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 10) buffer Pixels { uvec4 pixels[]; };
-layout(std430, binding = 11) readonly buffer Keys { uint keys[]; };
+layout(std430, binding = 11) readonly buffer Keys { uvec2 keys[]; };
 
-bool differs(uint key, float depth, int at) {
-  uint other = keys[at];
-  uint change = other ^ key;
+bool differs(uvec2 key, float depth, int at) {
+  uvec2 other = keys[at];
+  uint change = other.x ^ key.x;
   if ((change & 0xffffu) != 0u) {
     return true;
   }
   if (change != 0u) {
-    ivec3 a = ivec3((uvec3(key) >> uvec3(16u, 21u, 26u)) & 31u);
-    ivec3 b = ivec3((uvec3(other) >> uvec3(16u, 21u, 26u)) & 31u);
+    ivec3 a = ivec3((uvec3(key.x) >> uvec3(16u, 21u, 26u)) & 31u);
+    ivec3 b = ivec3((uvec3(other.x) >> uvec3(16u, 21u, 26u)) & 31u);
     ivec3 d = abs(a - b);
     if (d.x + d.y + d.z > 6) {
       return true;
     }
+  }
+  // Shadows and textures have edges too: a jump of more than an eighth.
+  float luminance = uintBitsToFloat(key.y);
+  float other_luminance = uintBitsToFloat(other.y);
+  if (abs(other_luminance - luminance) > 0.125 * max(luminance, other_luminance) + 0.002) {
+    return true;
   }
   float other_depth = uintBitsToFloat(pixels[at].w);
   return abs(other_depth - depth) > 0.05 * max(max(depth, other_depth), 0.0);
@@ -37,7 +43,7 @@ void main() {
   }
   int base = eye * size.x * size.y;
   int at = base + p.y * size.x + p.x;
-  uint key = keys[at];
+  uvec2 key = keys[at];
   uvec4 pixel = pixels[at];
   float depth = uintBitsToFloat(pixel.w);
   bool edge = false;

@@ -134,8 +134,9 @@ uvec4 pack_pixel(vec3 radiance, vec3 ellipse, float depth) {
                floatBitsToUint(depth));
 }
 
-// What tells an edge: material, status and the face's normal in 5 bits a component.
-uint pack_key(PixelRay ray) {
+// What tells an edge: material, status and the face's normal in 5 bits a component; beside them the luminance.
+uvec2 pack_key(PixelRay ray) {
   uvec3 n = uvec3(round((ray.normal * 0.5 + 0.5) * 31.0));
-  return (ray.material & 0xfffu) | (uint(ray.status) << 12) | (n.x << 16) | (n.y << 21) | (n.z << 26);
+  uint kind = (ray.material & 0xfffu) | (uint(ray.status) << 12) | (n.x << 16) | (n.y << 21) | (n.z << 26);
+  return uvec2(kind, floatBitsToUint(dot(ray.radiance, vec3(0.2126, 0.7152, 0.0722))));
 }

@@ -1,4 +1,4 @@
-// The scene's and the lenses' buffers, at the same places in every kernel that traces. See render/tracer_buffers.hpp.
+// The scene's and the lenses' buffers, at the same places in every kernel that traces. See render/kernel_set.cpp.
 layout(binding = 0) uniform samplerBuffer lens_table;
 layout(binding = 1) uniform usamplerBuffer bvh_nodes;
 layout(binding = 2) uniform samplerBuffer bvh_triangles;

@@ -15,7 +15,7 @@ struct ViewData {
   vec4 world_x;        // columns of world_from_eye; w: the translation's components
   vec4 world_y;
   vec4 world_z;
-  vec4 tint;           // transmission of the spectacles r, g, b; w: 1 if the lens is worn on the eye
+  vec4 tint;           // transmission of the spectacles r, g, b; w: unused
   vec4 virtual_image;  // x: distance of the headset's virtual image (m), 0 for none; y: its view origin behind the pupil
 };
 

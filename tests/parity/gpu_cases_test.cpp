@@ -18,8 +18,9 @@ TEST(GpuEngine, ReproducesEveryTracedCase) {
   const auto records = render::GpuTracer(device).trace(batch);
   ASSERT_EQ(records.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    support::expect_case(cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
-                         {.dioptres = cases[i].gpu_tolerance, .metres = 1e-7, .radians = 1e-5, .axis_degrees = 1e-3});
+    support::expect_case(
+        cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
+        {.dioptres = cases[i].gpu_tolerance, .relative = false, .metres = 1e-7, .radians = 1e-5, .axis_degrees = 1e-3});
   }
 }
 

@@ -16,7 +16,7 @@ TEST(ReferenceEngine, ReproducesEveryTracedCase) {
   const auto records = lenses::trace_reference(batch);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     support::expect_case(cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
-                         {.dioptres = 1e-7, .metres = 1e-9, .radians = 1e-9, .axis_degrees = 1e-6});
+                         {.dioptres = 1e-7, .relative = true, .metres = 1e-9, .radians = 1e-9, .axis_degrees = 1e-6});
   }
 }
 
@@ -29,8 +29,9 @@ TEST(FloatEngine, ReproducesEveryTracedCase) {
   }
   const auto records = lenses::trace_reference_float(batch);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    support::expect_case(cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
-                         {.dioptres = cases[i].gpu_tolerance, .metres = 1e-7, .radians = 1e-5, .axis_degrees = 1e-3});
+    support::expect_case(
+        cases[i], lenses::to_result(records[i], batch.rays[i], cases[i].request.lens.has_value()),
+        {.dioptres = cases[i].gpu_tolerance, .relative = false, .metres = 1e-7, .radians = 1e-5, .axis_degrees = 1e-3});
   }
 }
 

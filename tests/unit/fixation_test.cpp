@@ -64,7 +64,7 @@ TEST_F(FixationTest, BareEyesConvergeOnAPoint) {
   for (const glm::dvec3& point :
        {glm::dvec3(0.0, 0.0, -0.4), glm::dvec3(0.3, -0.2, -0.7), glm::dvec3(-5.0, 4.0, -20.0)}) {
     const Fixation f = render::fixate(table(), eyes, Viewing::gaze, point, glm::length(point));
-    EXPECT_EQ(f.point, point);
+    EXPECT_EQ(f.line[0].point, point);
     for (const LineOfSight& line : f.line) {
       EXPECT_FALSE(line.through_lens);
       EXPECT_LE(miss(line, point), 1e-12);
@@ -178,10 +178,10 @@ TEST_F(FixationTest, GazeFindsWhatBothEyesSee) {
   const auto eyes = both(&lens);
   const Fixation f =
       render::fixate_along(table(), eyes, Viewing::gaze, tracking::direction_from_yaw_pitch(0.15, 0.1), query);
-  EXPECT_NEAR(f.point.z, -2.0, 1e-5);
+  EXPECT_NEAR(f.line[0].point.z, -2.0, 1e-5);
   for (const LineOfSight& line : f.line) {
     EXPECT_TRUE(line.through_lens);
-    EXPECT_LE(miss(line, f.point), 1e-9);
+    EXPECT_LE(miss(line, line.point), 1e-9);
   }
   const Fixation sky = render::fixate_along(table(), eyes, Viewing::gaze, tracking::direction_from_yaw_pitch(0.0, 1.0),
                                             render::RayQuery(render::Scene{}));

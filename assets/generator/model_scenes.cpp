@@ -32,10 +32,8 @@ HallPalette hall_palette(SceneModel& scene) {
 void add_hall(SceneModel& scene, const HallPalette& p, const Box& b, double tile) {
   Node node{.name = "hall"};
   const glm::dvec3 l = b.low, h = b.high;
-  const std::array<std::array<glm::dvec2, 2>, 4> walls{{{{{l.x, l.z}, {h.x, l.z}}},
-                                                        {{{h.x, l.z}, {h.x, h.z}}},
-                                                        {{{h.x, h.z}, {l.x, h.z}}},
-                                                        {{{l.x, h.z}, {l.x, l.z}}}}};
+  const std::array<std::array<glm::dvec2, 2>, 4> walls{
+      {{{{l.x, l.z}, {h.x, l.z}}}, {{{h.x, l.z}, {h.x, h.z}}}, {{{h.x, h.z}, {l.x, h.z}}}, {{{l.x, h.z}, {l.x, l.z}}}}};
   const std::array<double, 4> heights{l.y, 0.9, 1.1, h.y};
   for (const auto& [from, to] : walls) {
     for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
@@ -44,7 +42,8 @@ void add_hall(SceneModel& scene, const HallPalette& p, const Box& b, double tile
     }
   }
   add_quad(node.in(p.ceiling), {l.x, h.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
-  const int across = static_cast<int>(std::round((h.x - l.x) / tile)), deep = static_cast<int>(std::round((h.z - l.z) / tile));
+  const int across = static_cast<int>(std::round((h.x - l.x) / tile)),
+            deep = static_cast<int>(std::round((h.z - l.z) / tile));
   for (int i = 0; i < across; ++i) {
     for (int k = 0; k < deep; ++k) {
       const double x = l.x + i * tile, z = l.z + k * tile;
@@ -117,7 +116,8 @@ void add_model(SceneModel& scene, const Model& model, const std::string& name, d
   const double scale = size / std::max(extent.x, extent.z);
   const glm::dvec3 foot(middle.x, model.bounds.low.y, middle.z);
   const glm::dmat4 local = glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * glm::translate(glm::dmat4(1.0), -foot);
-  Node node{.name = kModelPrefix + name, .translation = place, .rotation = glm::angleAxis(yaw, glm::dvec3(0.0, 1.0, 0.0))};
+  Node node{
+      .name = kModelPrefix + name, .translation = place, .rotation = glm::angleAxis(yaw, glm::dvec3(0.0, 1.0, 0.0))};
   const std::size_t first = scene.materials.size();
   for (Material material : model.materials) {
     material.name = name + " " + material.name;
@@ -184,7 +184,8 @@ SceneModel make_table_scene(const std::string& model, double size) {
   Node table{.name = "table"};
   add_rounded_box(table.in(wood), {{-0.7, kTableHeight - 0.03, -1.1}, {0.7, kTableHeight, -0.2}}, 0.008);
   for (const double x : {-0.65, 0.6}) {
-    for (const double z : {-1.05, -0.3}) add_box(table.in(wood), {{x, 0.0, z}, {x + 0.05, kTableHeight - 0.03, z + 0.05}});
+    for (const double z : {-1.05, -0.3})
+      add_box(table.in(wood), {{x, 0.0, z}, {x + 0.05, kTableHeight - 0.03, z + 0.05}});
   }
   scene.nodes.push_back(std::move(table));
   const glm::dvec3 place{0.0, kTableHeight, -0.62};

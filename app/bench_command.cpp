@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "app/bench/bench_chart.hpp"
 #include "app/bench/bench_report.hpp"
 #include "app/bench_figures.hpp"
 #include "app/commands.hpp"
@@ -17,6 +18,7 @@
 #include "render/chief_rays.hpp"
 #include "render/device_speed.hpp"
 #include "render/image/output_file.hpp"
+#include "render/image/png.hpp"
 #include "render/renderer.hpp"
 #include "tracking/input_error.hpp"
 
@@ -280,7 +282,8 @@ int bench(BenchOptions options) {
     }
     if (!folder.empty()) {
       write_text(folder / "bench.csv", rows_csv(report.rows, report.peers));
-      write_text(folder / "bench.svg", bench_chart(report));
+      write_text(folder / "bench.svg", to_svg(bench_chart(report)));
+      render::write_png(folder / "bench.png", to_image(bench_chart(report)));
       write_text(folder / "report.html", bench_page(report));
     }
     std::cout << (options.json ? rows_json(report.rows, report.peers) : bench_table(report));
@@ -327,7 +330,8 @@ Action add_bench_command(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--all-effects", options->all_effects, "Draw every blur, however small");
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
-  auto* output = command->add_option("--output", options->output, "Folder for bench.csv, bench.svg and report.html");
+  auto* output =
+      command->add_option("--output", options->output, "Folder for bench.csv, a chart (svg, png) and report.html");
   command->add_option("--figures", options->figures, "Folder for the paper's Figures 1, 4, 5 and 6; measures nothing")
       ->excludes(output);
   command->add_flag("--json", options->json, "Print the rows as JSON");

@@ -99,7 +99,7 @@ SceneOptions progressive() {
 
 // A view with its astigmatism and power as insets in the lower corners.
 Image8 with_insets(Studio& studio, const SceneOptions& options) {
-  constexpr int kSize = 640, kInset = 200;
+  constexpr int kSize = 640, kInset = 164;
   Image8 picture = studio.draw(options, kSize, Mode::adof);
   constexpr int kTop = kSize - kInset - kGap;
   for (const Mode mode : {Mode::astigmatism, Mode::power}) {

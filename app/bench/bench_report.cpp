@@ -47,12 +47,6 @@ std::string stage_list(const BenchRow& row) {
   return text;
 }
 
-// The paper's milliseconds, in proportion to the pixels.
-double paper_ms(const BenchRow& row) {
-  const double pixels = static_cast<double>(kPaperSize) * kPaperSize;
-  return 1000.0 / paper_fps(row.lens, row.mode).value_or(1.0) * row.pixels() / pixels;
-}
-
 std::string rows_of_size(const BenchReport& report, int size, const std::string& shading) {
   std::string out;
   for (const BenchRow& row : report.rows) {
@@ -154,47 +148,6 @@ std::string bench_table(const BenchReport& report) {
     out += rows_of_size(report, size, "bare") + rows_of_size(report, size, "full") + ratios_of_size(report, size);
   }
   return out + growth(report);
-}
-
-std::string bench_chart(const BenchReport& report) {
-  const int size = *sizes_of(report).rbegin();
-  const std::string shading = report.rows.front().shading;
-  std::vector<const BenchRow*> rows;
-  double longest = 0.0;
-  for (const BenchRow& row : report.rows) {
-    if (row.size == size && row.shading == shading) {
-      rows.push_back(&row);
-      longest = std::max({longest, row.ms.max, paper_ms(row)});
-    }
-  }
-  constexpr int kLeft = 170, kBars = 560, kStep = 34, kTop = 50;
-  const int height = kTop + kStep * static_cast<int>(rows.size()) + 20;
-  std::string out = format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
-      "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-      kLeft + kBars + 90, height);
-  out += format(
-      "<text x=\"10\" y=\"20\" font-size=\"14\">Milliseconds a frame, %dx%d, %s; thin line: least to most</text>\n",
-      size, size, shading.c_str());
-  out +=
-      "<text x=\"10\" y=\"38\" fill=\"#3465a4\">this device</text><text x=\"90\" y=\"38\" fill=\"#999999\">paper, GTX "
-      "480</text>\n";
-  int y = kTop;
-  for (const BenchRow* row : rows) {
-    const auto at = [&](double ms) { return kLeft + kBars * ms / longest; };
-    out += format("<text x=\"10\" y=\"%d\">%s %s</text>\n", y + 14, row->lens.c_str(), row->mode.c_str());
-    out += format("<rect x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"12\" fill=\"#3465a4\"/>\n", kLeft, y,
-                  at(row->ms.median) - kLeft);
-    out += format("<line x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\" stroke=\"black\"/>\n", at(row->ms.min),
-                  at(row->ms.max), y + 6, y + 6);
-    out += format("<text x=\"%.1f\" y=\"%d\">%.2f</text>\n", at(row->ms.max) + 6, y + 11, row->ms.median);
-    out += format("<rect x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"8\" fill=\"#999999\"/>\n", kLeft, y + 14,
-                  at(paper_ms(*row)) - kLeft);
-    out += format("<text x=\"%.1f\" y=\"%d\" fill=\"#666666\">%.2f</text>\n", at(paper_ms(*row)) + 6, y + 22,
-                  paper_ms(*row));
-    y += kStep;
-  }
-  return out + "</svg>\n";
 }
 
 std::string bench_page(const BenchReport& report) {

@@ -1,4 +1,4 @@
-// The benchmark as text, as a bar chart and as a page.
+// The benchmark as text and as a page, which shows bench.svg.
 #pragma once
 
 #include <span>
@@ -19,8 +19,6 @@ struct BenchReport {
 };
 
 [[nodiscard]] std::string bench_table(const BenchReport& report);
-// Milliseconds of the largest size's bare rows, the paper's beside them, as SVG.
-[[nodiscard]] std::string bench_chart(const BenchReport& report);
 [[nodiscard]] std::string bench_page(const BenchReport& report);
 
 }  // namespace app

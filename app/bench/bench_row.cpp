@@ -75,6 +75,11 @@ std::optional<double> paper_fps(const std::string& lens, const std::string& mode
   return kTable1[static_cast<std::size_t>(l - kBenchLenses.begin())][static_cast<std::size_t>(m - kBenchModes.begin())];
 }
 
+double paper_ms(const BenchRow& row) {
+  const auto fps = paper_fps(row.lens, row.mode);
+  return fps ? 1000.0 / *fps * row.pixels() / (static_cast<double>(kPaperSize) * kPaperSize) : 0.0;
+}
+
 std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> peers) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const BenchRow& row : rows) {

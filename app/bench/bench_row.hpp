@@ -54,6 +54,8 @@ struct PeerRow {
 
 // Frames a second of Table 1 of the paper, at 1024 x 1024 on a GeForce GTX 480.
 [[nodiscard]] std::optional<double> paper_fps(const std::string& lens, const std::string& mode);
+// Its milliseconds for a row's lens and mode, in proportion to the row's pixels; 0 for what the paper has not.
+[[nodiscard]] double paper_ms(const BenchRow& row);
 inline constexpr int kPaperSize = 1024;
 inline constexpr double kPaperGflops = 1345.0, kPaperGigabytes_per_s = 177.4;  // published for that card
 

@@ -28,7 +28,7 @@ TEST(Bench, TinyRoundGivesTheContractsRows) {
     EXPECT_FALSE(row["device"].get<std::string>().empty());
     EXPECT_GT(row["embree16_ms"].get<double>(), 0.0);
   }
-  for (const char* file : {"bench.csv", "bench.svg", "report.html"}) {
+  for (const char* file : {"bench.csv", "bench.svg", "bench.png", "report.html"}) {
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(report) / file)) << file;
   }
 }

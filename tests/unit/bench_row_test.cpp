@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "app/bench/bench_chart.hpp"
 #include "app/bench/bench_report.hpp"
 
 namespace app {
@@ -154,13 +155,26 @@ TEST(BenchReport, LinearGrowthHasRatioOne) {
 
 TEST(BenchReport, PageEscapesAndChartHasABarARow) {
   EXPECT_NE(bench_page(report()).find("cars&lt;1&gt;.glb"), std::string::npos);
-  const std::string chart = bench_chart(report());
+  const std::string chart = to_svg(bench_chart(report()));
   std::size_t bars = 0;
   for (std::size_t at = chart.find("height=\"12\""); at != std::string::npos;
        at = chart.find("height=\"12\"", at + 1)) {
     ++bars;
   }
   EXPECT_EQ(bars, 3U) << "the three rows of the larger size";
+}
+
+TEST(BenchReport, ChartFitsItsPicture) {
+  const Chart chart = bench_chart(report());
+  for (const Chart::Bar& bar : chart.bars) {
+    EXPECT_GE(bar.place.width, 0);
+    EXPECT_LE(bar.place.x + bar.place.width, chart.width);
+    EXPECT_LE(bar.place.y + bar.place.height, chart.height);
+  }
+  for (const Chart::Label& label : chart.labels) {
+    EXPECT_LE(label.x + render::text_width(label.text, 1), chart.width) << label.text;
+  }
+  EXPECT_EQ(to_image(chart).width, chart.width);
 }
 
 }  // namespace

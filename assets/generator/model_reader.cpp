@@ -1,6 +1,7 @@
 #include "assets/generator/model_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -97,7 +98,8 @@ class Reader {
     ModelPart part{.name = name, .material = primitive.at("material").get<std::size_t>()};
     const Json& positions = accessor(primitive.at("attributes").at("POSITION"));
     for (std::size_t i = 0; i < positions.at("count"); ++i) {
-      const auto* p = reinterpret_cast<const float*>(element(positions, i, 3 * sizeof(float)));
+      std::array<float, 3> p{};
+      std::memcpy(p.data(), element(positions, i, sizeof p), sizeof p);
       part.positions.emplace_back(world * glm::dvec4(p[0], p[1], p[2], 1.0));
     }
     const Json& indices = accessor(primitive.at("indices"));

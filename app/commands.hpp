@@ -10,6 +10,7 @@ namespace app {
 using Action = std::function<int()>;
 
 [[nodiscard]] Action add_render_command(CLI::App& program);
+[[nodiscard]] Action add_bench_command(CLI::App& program);
 [[nodiscard]] Action add_trace_command(CLI::App& program);
 
 }  // namespace app

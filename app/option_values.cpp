@@ -14,6 +14,12 @@ using tracking::InputError;
 
 constexpr int kLargestSide = 16384;
 
+// build/release, or where the program was installed.
+std::filesystem::path program_root() {
+  std::error_code none;
+  return std::filesystem::read_symlink("/proc/self/exe", none).parent_path().parent_path();
+}
+
 std::string short_number(double value) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 8);
@@ -78,10 +84,25 @@ void check_range(const std::string& option, double value, double lo, double hi, 
   }
 }
 
+std::filesystem::path built_in_asset(const std::string& name) {
+  std::error_code none;
+  for (const char* place : {"assets", "share/vergence"}) {
+    if (const auto file = program_root() / place / name; std::filesystem::exists(file, none)) {
+      return file;
+    }
+  }
+  throw InputError(name, "", "is missing beside the program; build the target vergence_assets");
+}
+
+std::filesystem::path fetched_car_scene() {
+  std::error_code none;
+  const std::filesystem::path file = program_root().parent_path() / "scenes" / "car_scene.glb";
+  return std::filesystem::exists(file, none) ? file : std::filesystem::path();
+}
+
 std::filesystem::path built_in_scene() {
   std::error_code none;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-  const std::filesystem::path root = program.parent_path().parent_path();
+  const std::filesystem::path root = program_root();
   for (const char* place : {"assets/reading_room.glb", "share/vergence/reading_room.glb"}) {
     if (std::filesystem::exists(root / place, none)) {
       return root / place;

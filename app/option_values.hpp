@@ -18,6 +18,13 @@ namespace app {
 // Throws unless lo <= value <= hi.
 void check_range(const std::string& option, double value, double lo, double hi, const std::string& unit);
 
+// A file of assets/ that the build puts beside the program ("wearers/presbyopia.json"). Throws with its name if it is
+// not there.
+[[nodiscard]] std::filesystem::path built_in_asset(const std::string& name);
+
+// The cars of assets/fetch_scenes.sh if they have been fetched for this build, else an empty path.
+[[nodiscard]] std::filesystem::path fetched_car_scene();
+
 // The built-in scene, beside the program in the build or in an installation.
 [[nodiscard]] std::filesystem::path built_in_scene();
 

@@ -29,39 +29,44 @@ struct Recipe {
   const char* name;
   std::span<const std::uint32_t> code;
   std::vector<Binding> bindings;
-  std::size_t constants;  // how many of the variant's it takes
+  bool traces;      // takes the variant's constants
+  bool wavefronts;  // those about the wavefront among them
 };
 
 Recipe recipe_of(Stage stage) {
   switch (stage) {
     case Stage::chief:
-      return {"trace", shaders::chief, scene_and(3), 3};
+      return {"trace", shaders::chief, scene_and(3), true, true};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(2), 1};
+      return {"edges", shaders::edges, scene_and(2), true, false};
     case Stage::samples:
-      return {"samples", shaders::dof, scene_and(3), 1};
+      return {"samples", shaders::dof, scene_and(3), true, false};
     case Stage::blur:
-      return {"blur", shaders::blur, {Binding::texel_rgba32ui, Binding::storage_buffer}, 0};
+      return {"blur", shaders::blur, {Binding::texel_rgba32ui, Binding::storage_buffer}, false, false};
     case Stage::encode:
       break;
   }
-  return {"encode", shaders::encode, std::vector<Binding>(3, Binding::storage_buffer), 0};
+  return {"encode", shaders::encode, std::vector<Binding>(3, Binding::storage_buffer), false, false};
 }
 
 }  // namespace
 
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
-  std::array<std::uint32_t, 4> key{variant.surface_kinds, variant.wavefront ? 1U : 0U, variant.keep_wavefront ? 1U : 0U,
-                                   static_cast<std::uint32_t>(stage)};
-  for (std::size_t i = recipe.constants; i < 3; ++i) {
-    key[i] = 0;
+  std::array<std::uint32_t, 5> key{0, 0, 0, 0, static_cast<std::uint32_t>(stage)};  // by constant id, then the stage
+  if (recipe.traces) {
+    key[0] = variant.surface_kinds;
+    key[3] = variant.bare ? 1U : 0U;
+  }
+  if (recipe.wavefronts) {
+    key[1] = variant.wavefront ? 1U : 0U;
+    key[2] = variant.keep_wavefront ? 1U : 0U;
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {
     return found->second;
   }
-  const auto constants = std::span<const std::uint32_t>(key).first(recipe.constants);
+  const auto constants = std::span<const std::uint32_t>(key).first(recipe.traces ? 4 : 0);
   return kernels_
       .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData), constants, recipe.name))
       .first->second;

@@ -17,6 +17,7 @@ struct TraceVariant {
   std::uint32_t surface_kinds = 0xffffffffU;  // bit k: some lens has a surface of kind k
   bool wavefront = true;                      // false: radiance only
   bool keep_wavefront = false;
+  bool bare = false;                          // one light, no shadow rays
 };
 
 class KernelSet {
@@ -27,7 +28,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 4>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 5>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

@@ -102,9 +102,9 @@ class Writer {
   }
 
   void add_material(const Material& material) {
-    Json pbr{{"baseColorFactor", {material.base_colour.r, material.base_colour.g, material.base_colour.b, 1.0}},
-             {"metallicFactor", 0.0},
-             {"roughnessFactor", 1.0}};
+    Json pbr{{"baseColorFactor", {material.base_colour.r, material.base_colour.g, material.base_colour.b, material.opacity}},
+             {"metallicFactor", material.metallic},
+             {"roughnessFactor", material.roughness}};
     if (material.picture) pbr["baseColorTexture"] = {{"index", *material.picture}};
     Json json{{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
     const double brightest = std::max({material.emission.r, material.emission.g, material.emission.b});
@@ -118,6 +118,7 @@ class Writer {
       }
     }
     if (material.double_sided) json["doubleSided"] = true;
+    if (material.opacity < 1.0) json["alphaMode"] = "BLEND";
     json_["materials"].push_back(std::move(json));
   }
 

@@ -1,4 +1,5 @@
-// make_assets: writes the built-in scene, and the example spectacles that are committed beside it.
+// make_assets: writes the built-in scene, the scenes around fetched models, and the example spectacles that are
+// committed beside it.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -7,6 +8,7 @@
 #include <span>
 
 #include "assets/generator/glb_writer.hpp"
+#include "assets/generator/model_scenes.hpp"
 #include "assets/generator/reading_room.hpp"
 #include "assets/generator/spectacles_writer.hpp"
 
@@ -23,13 +25,28 @@ void write_file(const std::filesystem::path& path, std::span<const char> bytes) 
   std::filesystem::rename(part, path);
 }
 
+// The scenes of models, and what each holds on standard output.
+void write_scenes(const std::string& folder, const std::string& models, const std::string& font) {
+  const auto write = [&](const std::string& name, const assets::SceneModel& scene) {
+    const std::vector<std::uint8_t> bytes = assets::glb_bytes(scene);
+    write_file(std::filesystem::path(folder) / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    std::printf("%-16s %7zu triangles, %zu of them the models'\n", name.c_str(), scene.triangle_count(),
+                assets::model_triangle_count(scene));
+  };
+  write("car_scene.glb", assets::make_car_scene(models, font));
+  write("chessboard.glb", assets::make_table_scene(models + "/chessboard.glb", 0.30));
+  write("engine.glb", assets::make_table_scene(models + "/2CylinderEngine.glb", 0.45));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes the reading room (glTF binary) and the example spectacles.");
-  std::string output, spectacles, font = VERGENCE_SERIF_FONT;
+  CLI::App app("Writes the reading room (glTF binary), scenes around models, and the example spectacles.");
+  std::string output, spectacles, models, scenes, font = VERGENCE_SERIF_FONT;
   app.add_option("--output", output, "where the scene goes, a .glb file");
   app.add_option("--spectacles", spectacles, "folder whose spectacles/ and lenses/ get the example files");
+  app.add_option("--models", models, "folder with the models that fetch_scenes.sh converts");
+  app.add_option("--scenes", scenes, "folder that gets the scenes around those models")->needs("--models");
   app.add_option("--font", font, "outline font with serifs, for texts and charts")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
@@ -37,6 +54,7 @@ int main(int argc, char** argv) {
       const std::vector<std::uint8_t> bytes = assets::glb_bytes(assets::make_reading_room(font));
       write_file(output, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
+    if (!scenes.empty()) write_scenes(scenes, models, font);
     if (!spectacles.empty()) {
       for (const auto& [path, text] : assets::spectacles_files())
         write_file(std::filesystem::path(spectacles) / path, text);

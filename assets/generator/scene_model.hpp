@@ -28,6 +28,7 @@ struct Material {
   glm::dvec3 emission{0.0};     // linear radiance
   std::optional<std::size_t> picture{};
   bool double_sided = false;
+  double opacity = 1.0, metallic = 0.0, roughness = 1.0;
 };
 
 struct Light {

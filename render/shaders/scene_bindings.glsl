@@ -7,6 +7,7 @@ layout(binding = 4) uniform usamplerBuffer texels;  // RGB9E5, linear
 
 layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a surface of kind k
 #define USED_KINDS kSurfaceKinds
+layout(constant_id = 3) const uint kBare = 0u;  // 1: the first light only, without shadow rays
 
 #include "lenses/gpu/optics.h"
 #include "render/shaders/frame.h"

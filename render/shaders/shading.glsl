@@ -97,12 +97,13 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction) {
   // Off the surface by more than the rounding of p, which grows with the coordinates.
   vec3 lifted = p + face * (1e-5 + 2e-6 * max(max(abs(p.x), abs(p.y)), abs(p.z)));
   vec3 light = environment.ambient.rgb;
-  for (int i = 0; i < environment.counts.x; ++i) {
+  int light_count = kBare != 0u ? min(environment.counts.x, 1) : environment.counts.x;
+  for (int i = 0; i < light_count; ++i) {
     vec3 towards;
     float reach;
     vec3 arriving = light_at(lights[i], lifted, towards, reach) * max(dot(normal, towards), 0.0);
     if (max(max(arriving.r, arriving.g), arriving.b) > 0.0 && dot(face, towards) > 0.0 &&
-        !trace_any(lifted, towards, reach * 0.9999)) {
+        (kBare != 0u || !trace_any(lifted, towards, reach * 0.9999))) {
       light += arriving * (1.0 / 3.14159265358979);
     }
   }

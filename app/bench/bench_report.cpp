@@ -1,0 +1,160 @@
+#include "app/bench/bench_report.hpp"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <set>
+
+namespace app {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::va_list arguments;
+  va_start(arguments, pattern);
+  char text[512];
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+const BenchRow* find(const BenchReport& report, const std::string& lens, const std::string& mode, int size,
+                     const std::string& shading) {
+  const auto found = std::ranges::find_if(report.rows, [&](const BenchRow& r) {
+    return r.lens == lens && r.mode == mode && r.size == size && r.shading == shading;
+  });
+  return found == report.rows.end() ? nullptr : &*found;
+}
+
+const PeerRow* find_peer(const BenchReport& report, const std::string& lens, int size) {
+  const auto found =
+      std::ranges::find_if(report.peers, [&](const PeerRow& p) { return p.lens == lens && p.size == size; });
+  return found == report.peers.end() ? nullptr : &*found;
+}
+
+std::set<int> sizes_of(const BenchReport& report) {
+  std::set<int> sizes;
+  for (const BenchRow& row : report.rows) {
+    sizes.insert(row.size);
+  }
+  return sizes;
+}
+
+std::string stage_list(const BenchRow& row) {
+  std::string text;
+  for (const auto& [name, ms] : row.stages) {
+    text += format("%s%s %.2f", text.empty() ? "" : ", ", name.c_str(), ms);
+  }
+  return text;
+}
+
+std::string rows_of_size(const BenchReport& report, int size, const std::string& shading) {
+  std::string out;
+  for (const BenchRow& row : report.rows) {
+    if (row.size != size || row.shading != shading) {
+      continue;
+    }
+    if (out.empty()) {
+      out = format("\n%dx%d, %s\n", size, size,
+                   shading == "bare" ? "bare: one light, no shadow rays, one ray a pixel, as in the paper"
+                                     : "full: every light with its shadow rays, edges refined");
+      out += "lens             mode    median ms      min      max      fps   GTX 480 ms   stages\n";
+    }
+    const std::string paper = shading == "bare" ? format("%12.2f", paper_ms(row)) : format("%12s", "-");
+    out += format("%-16s %-5s %11.2f %8.2f %8.2f %8.1f %s   %s\n", row.lens.c_str(), row.mode.c_str(), row.ms.median,
+                  row.ms.min, row.ms.max, row.fps(), paper.c_str(), stage_list(row).c_str());
+  }
+  return out;
+}
+
+std::string ratios_of_size(const BenchReport& report, int size) {
+  std::string out;
+  const BenchRow* pinhole = find(report, "none", "pin", size, "bare");
+  const BenchRow* plain = find(report, "none", "adof", size, "bare");
+  const BenchRow* spline = find(report, "bspline/sphere", "adof", size, "bare");
+  const PeerRow* plain_peer = find_peer(report, "none", size);
+  const PeerRow* spline_peer = find_peer(report, "bspline/sphere", size);
+  if (pinhole != nullptr && plain_peer != nullptr && pinhole->stage("trace") > 0.0) {
+    // Both in millions of rays a second; ours pays for the ray and the shading in the same stage.
+    const double ours = pinhole->pixels() / pinhole->stage("trace") * 1e-3;
+    const double peer = static_cast<double>(plain_peer->rays) / plain_peer->ms.median * 1e-3;
+    out += format("  scene rays: %.1f M/s (trace stage of none/pin, shading included), Embree16 %.1f M/s: %.2f of it\n",
+                  ours, peer, ours / peer);
+  }
+  if (plain != nullptr && spline != nullptr && plain->ms.median > 0.0) {
+    out += format("  bspline/sphere adof / none adof: %.2f (paper: %.2f)\n", spline->ms.median / plain->ms.median,
+                  *paper_fps("none", "adof") / *paper_fps("bspline/sphere", "adof"));
+  }
+  if (spline != nullptr && spline_peer != nullptr) {
+    out += format("  bspline/sphere adof frame %.2f ms / Embree16 on its %zu scene rays %.2f ms (%.2f to %.2f): %.2f\n",
+                  spline->ms.median, spline_peer->rays, spline_peer->ms.median, spline_peer->ms.min,
+                  spline_peer->ms.max, spline->ms.median / spline_peer->ms.median);
+  }
+  return out.empty() ? out : format("\nRatios at %dx%d\n", size, size) + out;
+}
+
+// Nanoseconds a pixel at each size; equal numbers are linear growth.
+std::string growth(const BenchReport& report) {
+  const std::set<int> sizes = sizes_of(report);
+  if (sizes.size() < 2) {
+    return {};
+  }
+  std::string out = "\nNanoseconds a pixel (equal: time grows linearly with pixels), and the last over the first\n";
+  out += format("%-16s %-5s", "lens", "mode");
+  for (const int size : sizes) {
+    out += format(" %9d", size);
+  }
+  out += "    ratio\n";
+  for (const BenchRow& row : report.rows) {
+    if (row.size != *sizes.begin() || row.shading != report.rows.front().shading) {
+      continue;
+    }
+    out += format("%-16s %-5s", row.lens.c_str(), row.mode.c_str());
+    double first = 0.0, last = 0.0;
+    for (const int size : sizes) {
+      const BenchRow* here = find(report, row.lens, row.mode, size, row.shading);
+      last = here == nullptr ? 0.0 : here->ms.median * 1e6 / here->pixels();
+      first = first == 0.0 ? last : first;
+      out += format(" %9.1f", last);
+    }
+    out += format(" %8.2f\n", first > 0.0 ? last / first : 0.0);
+  }
+  return out;
+}
+
+std::string machines(const BenchReport& report) {
+  std::string out = format("%s: %zu triangles, one eye, %d interleaved rounds; Embree with %u threads\n",
+                           report.scene.c_str(), report.triangles, report.rounds, report.peer_threads);
+  out += format("%s: %.0f GFLOPS, %.1f GB/s (measured: multiply-adds, copy)\n", report.device.c_str(), report.gflops,
+                report.gigabytes_per_s);
+  out += format(
+      "The paper's GeForce GTX 480: %.0f GFLOPS, %.1f GB/s (published); its times are of 1024x1024, scaled by pixels\n",
+      kPaperGflops, kPaperGigabytes_per_s);
+  return out;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string bench_table(const BenchReport& report) {
+  std::string out = machines(report);
+  for (const int size : sizes_of(report)) {
+    out += rows_of_size(report, size, "bare") + rows_of_size(report, size, "full") + ratios_of_size(report, size);
+  }
+  return out + growth(report);
+}
+
+std::string bench_page(const BenchReport& report) {
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Vergence: benchmark</title></head>\n"
+         "<body>\n<h1>Benchmark</h1>\n<img src=\"bench.svg\" alt=\"Milliseconds a frame\">\n<pre>\n" +
+         escaped(bench_table(report)) +
+         "</pre>\n<p>Every number is in <a href=\"bench.csv\">bench.csv</a>.</p>\n</body></html>\n";
+}
+
+}  // namespace app

@@ -1,0 +1,50 @@
+// vergence bench as a user starts it: one tiny round, and the options it refuses.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+const std::string kRoom = std::string(VERGENCE_BUILT_ASSETS) + "/reading_room.glb";
+
+TEST(Bench, TinyRoundGivesTheContractsRows) {
+  const support::TemporaryFolder folder;
+  const std::string report = (folder.path() / "report").string();
+  const auto result = support::run_program({.arguments = {"bench", "--scene", kRoom, "--size", "16,32", "--rounds", "1",
+                                                          "--lens", "none,bspline/torus", "--output", report, "--json"},
+                                            .time_limit = std::chrono::seconds(300)});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const json rows = json::parse(result.out);
+  ASSERT_EQ(rows.size(), 2U * 2U * 5U) << "sizes, lenses; four modes bare and adof in full";
+  for (const json& row : rows) {
+    EXPECT_GT(row["ms_median"].get<double>(), 0.0);
+    EXPECT_GE(row["ms_max"].get<double>(), row["ms_min"].get<double>());
+    EXPECT_TRUE(row["stages_ms"].contains("trace"));
+    EXPECT_EQ(row["stages_ms"].contains("edges"), row["shading"] == "full");
+    EXPECT_FALSE(row["device"].get<std::string>().empty());
+    EXPECT_GT(row["embree16_ms"].get<double>(), 0.0);
+  }
+  for (const char* file : {"bench.csv", "bench.svg", "bench.png", "report.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(report) / file)) << file;
+  }
+}
+
+TEST(Bench, RefusesWhatItDoesNotKnow) {
+  const std::vector<std::vector<std::string>> bad{
+      {"--lens", "sphere/cube"}, {"--mode", "adof,,pin"}, {"--size", "0"},       {"--size", "512x512"},
+      {"--size", "1.5"},         {"--rounds", "0"},       {"--shading", "nice"}, {"--output", "/proc/none/x"}};
+  for (const auto& options : bad) {
+    std::vector<std::string> arguments{"bench", "--scene", kRoom};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto result = support::run_program({.arguments = arguments});
+    EXPECT_EQ(result.exit_status, 2) << options[0] << " " << options[1] << ": " << result.err;
+    EXPECT_TRUE(result.err.starts_with("vergence: " + options[0])) << result.err;
+    EXPECT_TRUE(result.out.empty());
+  }
+}
+
+}  // namespace

@@ -35,11 +35,11 @@ struct Recipe {
 Recipe recipe_of(Stage stage) {
   switch (stage) {
     case Stage::chief:
-      return {"trace", shaders::chief, scene_and(3), 3};
+      return {"trace", shaders::chief, scene_and(3), 4};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(2), 1};
+      return {"edges", shaders::edges, scene_and(2), 2};
     case Stage::samples:
-      return {"samples", shaders::dof, scene_and(3), 1};
+      return {"samples", shaders::dof, scene_and(3), 2};
     case Stage::blur:
       return {"blur", shaders::blur, {Binding::texel_rgba32ui, Binding::storage_buffer}, 0};
     case Stage::encode:
@@ -52,9 +52,9 @@ Recipe recipe_of(Stage stage) {
 
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
-  std::array<std::uint32_t, 4> key{variant.surface_kinds, variant.wavefront ? 1U : 0U, variant.keep_wavefront ? 1U : 0U,
-                                   static_cast<std::uint32_t>(stage)};
-  for (std::size_t i = recipe.constants; i < 3; ++i) {
+  std::array<std::uint32_t, 5> key{variant.surface_kinds, variant.scene_features, variant.wavefront ? 1U : 0U,
+                                   variant.keep_wavefront ? 1U : 0U, static_cast<std::uint32_t>(stage)};
+  for (std::size_t i = recipe.constants; i + 1 < key.size(); ++i) {
     key[i] = 0;
   }
   const auto found = kernels_.find(key);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 
 namespace render {
 namespace {
@@ -198,6 +199,26 @@ std::vector<glm::vec2> read_texture_coordinates(const GltfDocument& document, in
                              "integers with KHR_mesh_quantization");
   }
   return read_vectors<glm::vec2>(document, accessor, field);
+}
+
+std::vector<glm::vec4> read_colours(const GltfDocument& document, int index, const std::string& field) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
+  const int type = accessor.componentType;
+  const bool whole = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && !(whole && accessor.normalized)) {
+    document.fail(field, "has component type " + std::to_string(type) +
+                             "; 5126 (float) and normalised 5121 and 5123 are allowed");
+  }
+  std::vector<glm::vec4> colours;
+  if (accessor.type == TINYGLTF_TYPE_VEC3) {
+    for (const glm::vec3& c : read_vectors<glm::vec3>(document, accessor, field)) colours.emplace_back(c, 1.0F);
+  } else if (accessor.type == TINYGLTF_TYPE_VEC4) {
+    colours = read_vectors<glm::vec4>(document, accessor, field);
+  } else {
+    document.fail(field, "its accessor has another type; VEC3 and VEC4 are allowed");
+  }
+  for (glm::vec4& c : colours) c = glm::clamp(c, 0.0F, 1.0F);
+  return colours;
 }
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& field,

@@ -22,8 +22,8 @@ constexpr std::size_t kLargestFile = 0xFFFFFFFF;  // tinygltf and the binary con
 // Far beyond any real file; tinygltf descends into extras by recursion.
 constexpr int kDeepestJson = 64;
 
-constexpr std::array kExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-                                    "KHR_texture_transform"};
+constexpr std::array kExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit",
+                                    "KHR_mesh_quantization", "KHR_texture_transform"};
 
 // For messages: no control characters, and not a whole data URI.
 std::string one_line(std::string text) {

@@ -10,6 +10,8 @@ namespace {
 
 // No data stand behind an accessor without a buffer view (zeros, or sparse), so a small file could ask for anything.
 constexpr std::size_t kMostZeros = std::size_t{1} << 24;
+// In all primitives together, seconds of work; far beyond what a scene of the allowed size needs.
+constexpr std::size_t kMostDecoded = std::size_t{1} << 28;
 
 template <typename T>
 T load(const std::uint8_t* p) {
@@ -97,6 +99,14 @@ Elements elements(const GltfDocument& document, const std::string& field, int bu
   return {bytes.data() + offset, stride, count};
 }
 
+void count_decoded(const GltfDocument& document, std::size_t count, const std::string& field) {
+  document.decoded += count;
+  if (document.decoded > kMostDecoded) {
+    document.fail(field, "brings the elements read to " + std::to_string(document.decoded) +
+                             "; 268435456 are allowed in all primitives together");
+  }
+}
+
 Elements accessor_elements(const GltfDocument& document, const tinygltf::Accessor& accessor, const std::string& field,
                            std::size_t size) {
   if (accessor.count == 0) document.fail(field, "has no elements; at least 1 is required");
@@ -105,11 +115,14 @@ Elements accessor_elements(const GltfDocument& document, const tinygltf::Accesso
       document.fail(field,
                     std::to_string(accessor.count) + " elements without a buffer view; at most 16777216 are allowed");
     }
+    count_decoded(document, accessor.count, field);
     return {nullptr, size, accessor.count};
   }
   const auto view = static_cast<std::size_t>(accessor.bufferView);
-  return elements(document, field, accessor.bufferView, accessor.byteOffset,
-                  document.model.bufferViews[view].byteStride, accessor.count, size);
+  const Elements result = elements(document, field, accessor.bufferView, accessor.byteOffset,
+                                   document.model.bufferViews[view].byteStride, accessor.count, size);
+  count_decoded(document, accessor.count, field);
+  return result;
 }
 
 // Calls replace(element, bytes) for each element that the sparse part replaces.

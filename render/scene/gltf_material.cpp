@@ -6,6 +6,8 @@
 namespace render {
 namespace {
 
+constexpr std::size_t kMostPixels = std::size_t{1} << 27;  // of all textures, 512 MiB as decoded
+
 float number_in(const tinygltf::Value& object, const char* name, float otherwise) {
   return object.Has(name) ? static_cast<float>(object.Get(name).GetNumberAsDouble()) : otherwise;
 }
@@ -146,13 +148,21 @@ class MaterialReader {
   std::int32_t texture(int index) {
     if (index < 0) return -1;
     const auto [place, is_new] = textures_.try_emplace(index, static_cast<std::int32_t>(scene_.textures.size()));
-    if (is_new) scene_.textures.push_back(read_texture(document_, index));
+    if (is_new) {
+      scene_.textures.push_back(read_texture(document_, index));
+      pixels_ += std::size_t{scene_.textures.back().width} * scene_.textures.back().height;
+      if (pixels_ > kMostPixels) {
+        document_.fail("textures[" + std::to_string(index) + "]",
+                       "brings the scene's textures to " + std::to_string(pixels_) + " pixels; 134217728 are allowed");
+      }
+    }
     return place->second;
   }
 
   const GltfDocument& document_;
   Scene& scene_;
   std::map<int, std::int32_t> textures_;
+  std::size_t pixels_ = 0;
   std::string field_;           // of the material being read
   std::optional<UvSets> sets_;  // that its textures have asked for so far
 };

@@ -12,8 +12,9 @@
 namespace render {
 namespace {
 
-constexpr std::size_t kMostTriangles = (std::size_t{1} << 27) - 1;  // a leaf of the BVH names its first with 27 bits
-constexpr std::size_t kMostVertices = 3 * (kMostTriangles + 1);
+// Instances of one mesh and corners without normals make much of a small file. Four million triangles that share
+// nothing stay well below; a file that asks for more memory than this is not one to build a scene of.
+constexpr std::size_t kMostSceneBytes = std::size_t{1} << 30;
 constexpr double kFarthest = 1e9;  // m; products in the shaders' ray tests stay finite
 
 struct Placement {
@@ -60,16 +61,25 @@ class PrimitiveReader {
     if (primitive_.mode < TINYGLTF_MODE_TRIANGLES) return;
     const Source source = read_source();
     const std::vector<glm::uvec3> triangles = read_triangles(source.positions.size());
-    if (triangles.size() > kMostTriangles - scene_.triangles.size()) {
-      document_.fail(field_, "makes the scene larger than 134217727 triangles; so many are allowed");
-    }
-    if (source.positions.size() + 3 * triangles.size() > kMostVertices - scene_.vertices.size()) {
-      document_.fail(field_, "makes the scene larger than 402653184 vertices; so many are allowed");
-    }
+    check_size(source, triangles.size());
     append_triangles(source, triangles);
   }
 
  private:
+  // Of the scene with this primitive, at most: every corner a vertex of its own.
+  void check_size(const Source& source, std::size_t triangles) const {
+    const std::size_t a_vertex = sizeof(Vertex) +
+                                 (source.second_uvs.empty() && scene_.second_uvs.empty() ? 0 : sizeof(glm::vec2)) +
+                                 (source.colours.empty() && scene_.colours.empty() ? 0 : sizeof(glm::vec4));
+    const std::size_t vertices = scene_.vertices.size() + source.normals.size() + 3 * triangles;
+    const std::size_t all = scene_.triangles.size() + triangles;
+    const std::size_t bytes = a_vertex * vertices + (sizeof(glm::uvec3) + sizeof(std::uint32_t)) * all;
+    if (bytes > kMostSceneBytes) {
+      document_.fail(field_, "brings the scene to " + std::to_string(all) + " triangles that may take " +
+                                 std::to_string(bytes) + " bytes; 1073741824 are allowed");
+    }
+  }
+
   [[nodiscard]] std::string attribute(const std::string& name) const { return field_ + ".attributes." + name; }
 
   [[nodiscard]] std::optional<int> accessor(const std::string& name) const {

@@ -109,7 +109,7 @@ Environment read_environment(const GltfDocument& document) {
   const auto take = [&](const char* name, glm::vec3& colour) {
     if (!source.IsObject() || !source.Has(name)) return;
     for (int i = 0; i < 3; ++i) {
-      colour[i] = static_cast<float>(source.Get(name).Get(static_cast<std::size_t>(i)).GetNumberAsDouble());
+      colour[i] = static_cast<float>(source.Get(name).Get(i).GetNumberAsDouble());
       if (!(colour[i] >= 0.0F)) {
         document.fail("asset.extras.vergence." + std::string(name) + "[" + std::to_string(i) + "]",
                       "is " + std::to_string(colour[i]) + "; a radiance of 0 or more is allowed");

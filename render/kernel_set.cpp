@@ -53,20 +53,22 @@ Recipe recipe_of(Stage stage) {
 
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
-  std::array<std::uint32_t, 5> key{0, 0, 0, 0, static_cast<std::uint32_t>(stage)};  // by constant id, then the stage
+  // By constant id, then the stage.
+  std::array<std::uint32_t, 6> key{0, 0, 0, 0, 0, static_cast<std::uint32_t>(stage)};
   if (recipe.traces) {
     key[0] = variant.surface_kinds;
-    key[3] = variant.bare ? 1U : 0U;
+    key[1] = variant.scene_features;
+    key[4] = variant.bare ? 1U : 0U;
   }
   if (recipe.wavefronts) {
-    key[1] = variant.wavefront ? 1U : 0U;
-    key[2] = variant.keep_wavefront ? 1U : 0U;
+    key[2] = variant.wavefront ? 1U : 0U;
+    key[3] = variant.keep_wavefront ? 1U : 0U;
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {
     return found->second;
   }
-  const auto constants = std::span<const std::uint32_t>(key).first(recipe.traces ? 4 : 0);
+  const auto constants = std::span<const std::uint32_t>(key).first(recipe.traces ? 5 : 0);
   return kernels_
       .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData), constants, recipe.name))
       .first->second;

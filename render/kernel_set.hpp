@@ -14,10 +14,11 @@ enum class Stage : std::uint32_t { chief, edges, samples, blur, encode };
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {
-  std::uint32_t surface_kinds = 0xffffffffU;  // bit k: some lens has a surface of kind k
-  bool wavefront = true;                      // false: radiance only
+  std::uint32_t surface_kinds = 0xffffffffU;   // bit k: some lens has a surface of kind k
+  std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
+  bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
-  bool bare = false;                          // one light, no shadow rays
+  bool bare = false;  // one light, no shadow rays
 };
 
 class KernelSet {
@@ -28,7 +29,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 5>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 6>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

@@ -17,9 +17,11 @@ struct SceneBuffers {
 
   vk::Buffer bvh_nodes, bvh_triangles, shading_triangles, texels, environment, lights, materials, textures;
   std::size_t triangle_count = 0;
+  std::uint32_t features = 0;  // kFeature... of shaders/view.h: what kernels must know for this scene
 
  private:
-  SceneBuffers(vk::Device& device, const Scene& scene, const Bvh4& bvh);
+  struct Parts;
+  SceneBuffers(vk::Device& device, const Scene& scene, Parts&& parts);
 };
 
 // Uploads values; an empty list becomes one zeroed element, because a shader's buffer may not be empty.

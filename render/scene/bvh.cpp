@@ -35,6 +35,12 @@ bool has_area(const Corner& c) {
   return std::isfinite(length) && length > 0.0F;
 }
 
+std::uint32_t flags_of(const Scene& scene, std::uint32_t triangle) {
+  const Material& material = scene.materials.at(scene.triangle_material[triangle]);
+  return (material.double_sided ? 0U : kBvhCulled) | (material.alpha == Material::Alpha::mask ? kBvhCutOut : 0U) |
+         (material.alpha == Material::Alpha::blend ? kBvhBlends : 0U);
+}
+
 // The box of the triangle that the shader sees (v0, v0 + e1, v0 + e2), widened by what float32 rounding of a box plane
 // can take away: a few units in the last place of the coordinates, and at least a nanometre, so that a ray in the
 // plane of a face is strictly inside.
@@ -73,7 +79,7 @@ Bvh4 build_bvh4(const Scene& scene) {
     const Corner c = corner_of(scene, triangle);
     bvh.triangles.emplace_back(c.v0, std::bit_cast<float>(scene.triangle_material[triangle]));
     bvh.triangles.emplace_back(c.e1, std::bit_cast<float>(triangle));
-    bvh.triangles.emplace_back(c.e2, 0.0F);
+    bvh.triangles.emplace_back(c.e2, std::bit_cast<float>(flags_of(scene, triangle)));
   }
   return bvh;
 }

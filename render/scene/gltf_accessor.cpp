@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 
 namespace render {
 namespace {
 
 // No data stand behind an accessor without a buffer view (zeros, or sparse), so a small file could ask for anything.
 constexpr std::size_t kMostZeros = std::size_t{1} << 24;
+// In all primitives together, seconds of work; far beyond what a scene of the allowed size needs.
+constexpr std::size_t kMostDecoded = std::size_t{1} << 28;
 
 template <typename T>
 T load(const std::uint8_t* p) {
@@ -96,6 +99,14 @@ Elements elements(const GltfDocument& document, const std::string& field, int bu
   return {bytes.data() + offset, stride, count};
 }
 
+void count_decoded(const GltfDocument& document, std::size_t count, const std::string& field) {
+  document.decoded += count;
+  if (document.decoded > kMostDecoded) {
+    document.fail(field, "brings the elements read to " + std::to_string(document.decoded) +
+                             "; 268435456 are allowed in all primitives together");
+  }
+}
+
 Elements accessor_elements(const GltfDocument& document, const tinygltf::Accessor& accessor, const std::string& field,
                            std::size_t size) {
   if (accessor.count == 0) document.fail(field, "has no elements; at least 1 is required");
@@ -104,11 +115,14 @@ Elements accessor_elements(const GltfDocument& document, const tinygltf::Accesso
       document.fail(field,
                     std::to_string(accessor.count) + " elements without a buffer view; at most 16777216 are allowed");
     }
+    count_decoded(document, accessor.count, field);
     return {nullptr, size, accessor.count};
   }
   const auto view = static_cast<std::size_t>(accessor.bufferView);
-  return elements(document, field, accessor.bufferView, accessor.byteOffset,
-                  document.model.bufferViews[view].byteStride, accessor.count, size);
+  const Elements result = elements(document, field, accessor.bufferView, accessor.byteOffset,
+                                   document.model.bufferViews[view].byteStride, accessor.count, size);
+  count_decoded(document, accessor.count, field);
+  return result;
 }
 
 // Calls replace(element, bytes) for each element that the sparse part replaces.
@@ -198,6 +212,26 @@ std::vector<glm::vec2> read_texture_coordinates(const GltfDocument& document, in
                              "integers with KHR_mesh_quantization");
   }
   return read_vectors<glm::vec2>(document, accessor, field);
+}
+
+std::vector<glm::vec4> read_colours(const GltfDocument& document, int index, const std::string& field) {
+  const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<std::size_t>(index));
+  const int type = accessor.componentType;
+  const bool whole = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+  if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && !(whole && accessor.normalized)) {
+    document.fail(field, "has component type " + std::to_string(type) +
+                             "; 5126 (float) and normalised 5121 and 5123 are allowed");
+  }
+  std::vector<glm::vec4> colours;
+  if (accessor.type == TINYGLTF_TYPE_VEC3) {
+    for (const glm::vec3& c : read_vectors<glm::vec3>(document, accessor, field)) colours.emplace_back(c, 1.0F);
+  } else if (accessor.type == TINYGLTF_TYPE_VEC4) {
+    colours = read_vectors<glm::vec4>(document, accessor, field);
+  } else {
+    document.fail(field, "its accessor has another type; VEC3 and VEC4 are allowed");
+  }
+  for (glm::vec4& c : colours) c = glm::clamp(c, 0.0F, 1.0F);
+  return colours;
 }
 
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int index, const std::string& field,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace render {
 // Texture coordinates may also be normalised 8- or 16-bit integers.
 [[nodiscard]] std::vector<glm::vec2> read_texture_coordinates(const GltfDocument& document, int accessor,
                                                               const std::string& field);
+// Vertex colours, VEC3 (alpha 1) or VEC4: floats or normalised 8- or 16-bit integers, clamped to 0..1.
+[[nodiscard]] std::vector<glm::vec4> read_colours(const GltfDocument& document, int accessor, const std::string& field);
 // Every index is below vertices.
 [[nodiscard]] std::vector<std::uint32_t> read_indices(const GltfDocument& document, int accessor,
                                                       const std::string& field, std::size_t vertices);

@@ -22,8 +22,8 @@ constexpr std::size_t kLargestFile = 0xFFFFFFFF;  // tinygltf and the binary con
 // Far beyond any real file; tinygltf descends into extras by recursion.
 constexpr int kDeepestJson = 64;
 
-constexpr std::array kExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-                                    "KHR_texture_transform"};
+constexpr std::array kExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit",
+                                    "KHR_mesh_quantization", "KHR_texture_transform"};
 
 // For messages: no control characters, and not a whole data URI.
 std::string one_line(std::string text) {
@@ -261,9 +261,24 @@ std::vector<std::uint8_t> read_external_file(const GltfDocument& document, const
   return bytes;
 }
 
+// A binary file shorter than its header says is refused before it is read.
+void check_length(const GltfDocument& document) {
+  std::error_code status;
+  if (!fs::is_regular_file(document.file, status)) return;
+  Bytes head(20);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(document.file.c_str(), "rb"), std::fclose);
+  if (!file || std::fread(head.data(), 1, head.size(), file.get()) != head.size() || !is_binary(head)) return;
+  const std::uintmax_t size = fs::file_size(document.file, status);
+  if (!status && word_at(head, 4) == 2 && word_at(head, 8) > size) {
+    document.fail("", "is truncated: its header says " + std::to_string(word_at(head, 8)) + " bytes, it has " +
+                          std::to_string(size));
+  }
+}
+
 GltfDocument load_gltf_document(const std::string& path) {
-  GltfDocument document{path, {}, {}};
+  GltfDocument document{path, {}, 0, {}};
   int error = 0;
+  check_length(document);
   const Bytes bytes = read_whole(path, error);
   if (error != 0)
     document.fail("", std::string("cannot be read: ") + std::strerror(error) + "; a .gltf or .glb file is expected");

@@ -6,6 +6,8 @@
 namespace render {
 namespace {
 
+constexpr std::size_t kMostPixels = std::size_t{1} << 27;  // of all textures, 512 MiB as decoded
+
 float number_in(const tinygltf::Value& object, const char* name, float otherwise) {
   return object.Has(name) ? static_cast<float>(object.Get(name).GetNumberAsDouble()) : otherwise;
 }
@@ -16,11 +18,19 @@ glm::vec2 pair_in(const tinygltf::Value& object, const char* name, const glm::ve
   return {static_cast<float>(pair.Get(0).GetNumberAsDouble()), static_cast<float>(pair.Get(1).GetNumberAsDouble())};
 }
 
-// KHR_texture_transform: scale first, then a turn that is counter-clockwise as seen with v downwards, then the offset.
-UvSource uv_source(const tinygltf::TextureInfo& info) {
-  UvSource source{.set = info.texCoord};
-  const auto found = info.extensions.find("KHR_texture_transform");
-  if (found == info.extensions.end()) return source;
+// A texture of a material before its set of coordinates has found its place: KHR_texture_transform scales first, then
+// turns counter-clockwise as seen with v downwards, then shifts. That is the extension's table, its worked example (the
+// lower left quadrant) and its viewers; the GLSL lines in its text turn the other way.
+struct Source {
+  int set = 0;
+  glm::mat2 linear{1.0F};
+  glm::vec2 offset{0.0F};
+};
+
+Source source_of(int set, const tinygltf::ExtensionMap& extensions) {
+  Source source{.set = set};
+  const auto found = extensions.find("KHR_texture_transform");
+  if (found == extensions.end()) return source;
   const tinygltf::Value& transform = found->second;
   if (transform.Has("texCoord")) source.set = transform.Get("texCoord").GetNumberAsInt();
   const float angle = number_in(transform, "rotation", 0.0F), c = std::cos(angle), s = std::sin(angle);
@@ -34,24 +44,32 @@ class MaterialReader {
  public:
   MaterialReader(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-  UvSource read(std::size_t index) {
+  UvSets read(std::size_t index) {
     const tinygltf::Material& source = document_.model.materials[index];
-    const std::string field = "materials[" + std::to_string(index) + "]";
+    field_ = "materials[" + std::to_string(index) + "]";
+    sets_.reset();
     Material material;
     material.name = source.name;
     material.double_sided = source.doubleSided;
+    material.unlit = source.extensions.contains("KHR_materials_unlit");
+    const std::string pbr_field = field_ + ".pbrMetallicRoughness";
     const auto& pbr = source.pbrMetallicRoughness;
     for (int i = 0; i < 4; ++i) {
-      material.base_colour[i] = factor(pbr.baseColorFactor, i, 1.0, field + ".pbrMetallicRoughness.baseColorFactor");
+      material.base_colour[i] = factor(pbr.baseColorFactor, i, 1.0, pbr_field + ".baseColorFactor");
     }
-    const float strength = emissive_strength(source, field);
+    material.metallic = unit_number(pbr.metallicFactor, pbr_field + ".metallicFactor");
+    material.roughness = unit_number(pbr.roughnessFactor, pbr_field + ".roughnessFactor");
+    const float strength = emissive_strength(source);
     for (int i = 0; i < 3; ++i) {
-      material.emission[i] = strength * factor(source.emissiveFactor, i, 0.0, field + ".emissiveFactor");
+      material.emission[i] = strength * factor(source.emissiveFactor, i, 0.0, field_ + ".emissiveFactor");
     }
-    material.base_colour_texture = texture(pbr.baseColorTexture.index);
-    material.emission_texture = texture(source.emissiveTexture.index);
+    material.normal_scale = static_cast<float>(source.normalTexture.scale);
+    material.occlusion_strength =
+        unit_number(source.occlusionTexture.strength, field_ + ".occlusionTexture.strength");
+    read_alpha(source, material);
+    read_textures(source, material);
     scene_.materials.push_back(material);
-    return shared_source(pbr.baseColorTexture, source.emissiveTexture, field);
+    return sets_.value_or(UvSets{});
   }
 
  private:
@@ -64,51 +82,100 @@ class MaterialReader {
     return static_cast<float>(value);
   }
 
-  [[nodiscard]] float emissive_strength(const tinygltf::Material& source, const std::string& field) const {
+  [[nodiscard]] float unit_number(double value, const std::string& field) const {
+    if (!(value >= 0.0 && value <= 1.0)) {
+      document_.fail(field, "is " + std::to_string(value) + "; 0 to 1 is allowed");
+    }
+    return static_cast<float>(value);
+  }
+
+  void read_alpha(const tinygltf::Material& source, Material& material) const {
+    if (source.alphaMode == "MASK") {
+      material.alpha = Material::Alpha::mask;
+    } else if (source.alphaMode == "BLEND") {
+      material.alpha = Material::Alpha::blend;
+    } else if (!source.alphaMode.empty() && source.alphaMode != "OPAQUE") {
+      document_.fail(field_ + ".alphaMode", "is another word; OPAQUE, MASK and BLEND are allowed");
+    }
+    if (!(source.alphaCutoff >= 0.0)) {
+      document_.fail(field_ + ".alphaCutoff", "is " + std::to_string(source.alphaCutoff) + "; 0 or more is allowed");
+    }
+    material.alpha_cutoff = static_cast<float>(source.alphaCutoff);
+  }
+
+  void read_textures(const tinygltf::Material& source, Material& material) {
+    const auto& pbr = source.pbrMetallicRoughness;
+    material.base_colour_texture = use(pbr.baseColorTexture, "pbrMetallicRoughness.baseColorTexture");
+    material.emission_texture = use(source.emissiveTexture, "emissiveTexture");
+    material.surface_texture = use(pbr.metallicRoughnessTexture, "pbrMetallicRoughness.metallicRoughnessTexture");
+    material.normal_texture = use(source.normalTexture, "normalTexture");
+    material.occlusion_texture = use(source.occlusionTexture, "occlusionTexture");
+  }
+
+  [[nodiscard]] float emissive_strength(const tinygltf::Material& source) const {
     const auto found = source.extensions.find("KHR_materials_emissive_strength");
     if (found == source.extensions.end()) return 1.0F;
     const float strength = number_in(found->second, "emissiveStrength", 1.0F);
     if (!(strength >= 0.0F)) {
-      document_.fail(field + ".extensions.KHR_materials_emissive_strength.emissiveStrength",
+      document_.fail(field_ + ".extensions.KHR_materials_emissive_strength.emissiveStrength",
                      "is " + std::to_string(strength) + "; 0 or more is allowed");
     }
     return strength;
   }
 
-  // A vertex carries one pair of coordinates, so two textures of a material must agree on theirs.
-  [[nodiscard]] UvSource shared_source(const tinygltf::TextureInfo& base, const tinygltf::TextureInfo& emissive,
-                                       const std::string& field) const {
-    if (base.index < 0) return uv_source(emissive);
-    if (emissive.index >= 0 && !(uv_source(base) == uv_source(emissive))) {
-      document_.fail(field + ".emissiveTexture",
-                     "has another texCoord or KHR_texture_transform than the base colour "
-                     "texture; the two must agree");
+  // info: one of tinygltf's three kinds of texture reference.
+  template <class Info>
+  TextureUse use(const Info& info, const char* name) {
+    TextureUse use;
+    if (info.index < 0) return use;
+    const Source source = source_of(info.texCoord, info.extensions);
+    if (!sets_) sets_ = UvSets{.first = source.set, .second = {}};
+    if (source.set != sets_->first) {
+      if (sets_->second.value_or(source.set) != source.set) {
+        document_.fail(field_ + "." + name + ".texCoord",
+                       "is the material's third set of texture coordinates; two are allowed");
+      }
+      sets_->second = source.set;
+      use.second_uv = 1;
     }
-    return uv_source(base);
+    use.linear = source.linear;
+    use.offset = source.offset;
+    use.index = texture(info.index);
+    return use;
   }
 
   // The scene's index of a glTF texture, decoded at its first use; -1 for none.
   std::int32_t texture(int index) {
     if (index < 0) return -1;
     const auto [place, is_new] = textures_.try_emplace(index, static_cast<std::int32_t>(scene_.textures.size()));
-    if (is_new) scene_.textures.push_back(read_texture(document_, index));
+    if (is_new) {
+      scene_.textures.push_back(read_texture(document_, index));
+      pixels_ += std::size_t{scene_.textures.back().width} * scene_.textures.back().height;
+      if (pixels_ > kMostPixels) {
+        document_.fail("textures[" + std::to_string(index) + "]",
+                       "brings the scene's textures to " + std::to_string(pixels_) + " pixels; 134217728 are allowed");
+      }
+    }
     return place->second;
   }
 
   const GltfDocument& document_;
   Scene& scene_;
   std::map<int, std::int32_t> textures_;
+  std::size_t pixels_ = 0;
+  std::string field_;           // of the material being read
+  std::optional<UvSets> sets_;  // that its textures have asked for so far
 };
 
 }  // namespace
 
-std::vector<UvSource> read_materials(const GltfDocument& document, Scene& scene) {
+std::vector<UvSets> read_materials(const GltfDocument& document, Scene& scene) {
   MaterialReader reader(document, scene);
-  std::vector<UvSource> sources;
-  for (std::size_t i = 0; i < document.model.materials.size(); ++i) sources.push_back(reader.read(i));
+  std::vector<UvSets> sets;
+  for (std::size_t i = 0; i < document.model.materials.size(); ++i) sets.push_back(reader.read(i));
   scene.materials.emplace_back();
-  sources.emplace_back();
-  return sources;
+  sets.emplace_back();
+  return sets;
 }
 
 }  // namespace render

@@ -12,8 +12,9 @@
 namespace render {
 namespace {
 
-constexpr std::size_t kMostTriangles = (std::size_t{1} << 27) - 1;  // a leaf of the BVH names its first with 27 bits
-constexpr std::size_t kMostVertices = 3 * (kMostTriangles + 1);
+// Instances of one mesh and corners without normals make much of a small file. Four million triangles that share
+// nothing stay well below; a file that asks for more memory than this is not one to build a scene of.
+constexpr std::size_t kMostSceneBytes = std::size_t{1} << 30;
 constexpr double kFarthest = 1e9;  // m; products in the shaders' ray tests stay finite
 
 struct Placement {
@@ -33,7 +34,8 @@ struct Placement {
 struct Source {
   std::vector<glm::vec3> positions;  // world
   std::vector<glm::vec3> normals;    // world, unit or zero; empty when absent
-  std::vector<glm::vec2> uvs;
+  std::vector<glm::vec2> uvs, second_uvs;  // the second empty when no texture asks for it
+  std::vector<glm::vec4> colours;           // linear; empty when absent
 };
 
 std::optional<glm::vec3> unit(const glm::dvec3& v) {
@@ -45,11 +47,11 @@ std::optional<glm::vec3> unit(const glm::dvec3& v) {
 class PrimitiveReader {
  public:
   PrimitiveReader(const GltfDocument& document, const tinygltf::Primitive& primitive, std::string field,
-                  const Placement& placement, const std::vector<UvSource>& uv_sources, Scene& scene)
+                  const Placement& placement, const std::vector<UvSets>& uv_sets, Scene& scene)
       : document_(document), primitive_(primitive), field_(std::move(field)), placement_(placement), scene_(scene) {
-    const std::size_t fallback = uv_sources.size() - 1;
+    const std::size_t fallback = uv_sets.size() - 1;
     material_ = primitive.material < 0 ? fallback : static_cast<std::size_t>(primitive.material);
-    uv_source_ = uv_sources.at(material_);
+    uv_sets_ = uv_sets.at(material_);
   }
 
   void append() {
@@ -59,16 +61,25 @@ class PrimitiveReader {
     if (primitive_.mode < TINYGLTF_MODE_TRIANGLES) return;
     const Source source = read_source();
     const std::vector<glm::uvec3> triangles = read_triangles(source.positions.size());
-    if (triangles.size() > kMostTriangles - scene_.triangles.size()) {
-      document_.fail(field_, "makes the scene larger than 134217727 triangles; so many are allowed");
-    }
-    if (source.positions.size() + 3 * triangles.size() > kMostVertices - scene_.vertices.size()) {
-      document_.fail(field_, "makes the scene larger than 402653184 vertices; so many are allowed");
-    }
+    check_size(source, triangles.size());
     append_triangles(source, triangles);
   }
 
  private:
+  // Of the scene with this primitive, at most: every corner a vertex of its own.
+  void check_size(const Source& source, std::size_t triangles) const {
+    const std::size_t a_vertex = sizeof(Vertex) +
+                                 (source.second_uvs.empty() && scene_.second_uvs.empty() ? 0 : sizeof(glm::vec2)) +
+                                 (source.colours.empty() && scene_.colours.empty() ? 0 : sizeof(glm::vec4));
+    const std::size_t vertices = scene_.vertices.size() + source.normals.size() + 3 * triangles;
+    const std::size_t all = scene_.triangles.size() + triangles;
+    const std::size_t bytes = a_vertex * vertices + (sizeof(glm::uvec3) + sizeof(std::uint32_t)) * all;
+    if (bytes > kMostSceneBytes) {
+      document_.fail(field_, "brings the scene to " + std::to_string(all) + " triangles that may take " +
+                                 std::to_string(bytes) + " bytes; 1073741824 are allowed");
+    }
+  }
+
   [[nodiscard]] std::string attribute(const std::string& name) const { return field_ + ".attributes." + name; }
 
   [[nodiscard]] std::optional<int> accessor(const std::string& name) const {
@@ -100,21 +111,23 @@ class PrimitiveReader {
       same_count("NORMAL", source.normals.size(), source.positions.size());
       for (glm::vec3& n : source.normals) n = unit(placement_.normals * glm::dvec3(n)).value_or(glm::vec3(0.0F));
     }
-    const std::string uv_name = "TEXCOORD_" + std::to_string(uv_source_.set);
-    if (const auto uvs = accessor(uv_name)) {
-      source.uvs = read_texture_coordinates(document_, *uvs, attribute(uv_name));
-      same_count(uv_name, source.uvs.size(), source.positions.size());
-      for (std::size_t i = 0; i < source.uvs.size(); ++i) {
-        source.uvs[i] = uv_source_.linear * source.uvs[i] + uv_source_.offset;
-        if (!std::isfinite(source.uvs[i].x + source.uvs[i].y)) {
-          document_.fail(attribute(uv_name), "element " + std::to_string(i) +
-                                                 " is not finite once transformed; finite coordinates are allowed");
-        }
-      }
-    } else {
-      source.uvs.assign(source.positions.size(), glm::vec2(0.0F));
+    source.uvs = read_uvs(uv_sets_.first, source.positions.size());
+    if (uv_sets_.second) source.second_uvs = read_uvs(*uv_sets_.second, source.positions.size());
+    if (const auto colours = accessor("COLOR_0")) {
+      source.colours = read_colours(document_, *colours, attribute("COLOR_0"));
+      same_count("COLOR_0", source.colours.size(), source.positions.size());
     }
     return source;
+  }
+
+  // A texture without its coordinates shows its first texel.
+  [[nodiscard]] std::vector<glm::vec2> read_uvs(int set, std::size_t count) const {
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    const auto source = accessor(name);
+    if (!source) return std::vector<glm::vec2>(count, glm::vec2(0.0F));
+    std::vector<glm::vec2> uvs = read_texture_coordinates(document_, *source, attribute(name));
+    same_count(name, uvs.size(), count);
+    return uvs;
   }
 
   // glTF 2.0, section 3.7.2.1: the corners of the i-th triangle of a list, strip or fan.
@@ -149,7 +162,7 @@ class PrimitiveReader {
   void append_triangles(const Source& source, const std::vector<glm::uvec3>& triangles) {
     const std::size_t first = scene_.vertices.size();
     for (std::size_t i = 0; i < source.normals.size(); ++i) {
-      scene_.vertices.push_back({source.positions[i], source.normals[i], source.uvs[i]});
+      append_vertex(source, i, source.normals[i]);
     }
     for (const glm::uvec3& triangle : triangles) {
       glm::uvec3 corners;
@@ -159,11 +172,24 @@ class PrimitiveReader {
           corners[corner] = static_cast<std::uint32_t>(first + i);
         } else {
           corners[corner] = static_cast<std::uint32_t>(scene_.vertices.size());
-          scene_.vertices.push_back({source.positions[i], face_normal(source, triangle), source.uvs[i]});
+          append_vertex(source, i, face_normal(source, triangle));
         }
       }
       scene_.triangles.push_back(corners);
       scene_.triangle_material.push_back(static_cast<std::uint32_t>(material_));
+    }
+  }
+
+  // Coordinates and colours that most scenes lack begin with the first vertex that has them.
+  void append_vertex(const Source& source, std::size_t i, const glm::vec3& normal) {
+    scene_.vertices.push_back({source.positions[i], normal, source.uvs[i]});
+    if (!source.second_uvs.empty() || !scene_.second_uvs.empty()) {
+      scene_.second_uvs.resize(scene_.vertices.size(), glm::vec2(0.0F));
+      if (!source.second_uvs.empty()) scene_.second_uvs.back() = source.second_uvs[i];
+    }
+    if (!source.colours.empty() || !scene_.colours.empty()) {
+      scene_.colours.resize(scene_.vertices.size(), glm::vec4(1.0F));
+      if (!source.colours.empty()) scene_.colours.back() = source.colours[i];
     }
   }
 
@@ -179,18 +205,18 @@ class PrimitiveReader {
   const Placement& placement_;
   Scene& scene_;
   std::size_t material_ = 0;
-  UvSource uv_source_;
+  UvSets uv_sets_;
 };
 
 }  // namespace
 
 void append_mesh(const GltfDocument& document, int mesh, const glm::dmat4& world_from_mesh,
-                 const std::vector<UvSource>& uv_sources, Scene& scene) {
+                 const std::vector<UvSets>& uv_sets, Scene& scene) {
   const Placement placement(world_from_mesh);
   const auto& primitives = document.model.meshes.at(static_cast<std::size_t>(mesh)).primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const std::string field = "meshes[" + std::to_string(mesh) + "].primitives[" + std::to_string(i) + "]";
-    PrimitiveReader(document, primitives[i], field, placement, uv_sources, scene).append();
+    PrimitiveReader(document, primitives[i], field, placement, uv_sets, scene).append();
   }
 }
 

@@ -12,6 +12,6 @@ namespace render {
 
 // Appends all triangles of the mesh; points and lines have no surface and are passed over.
 void append_mesh(const GltfDocument& document, int mesh, const glm::dmat4& world_from_mesh,
-                 const std::vector<UvSource>& uv_sources, Scene& scene);
+                 const std::vector<UvSets>& uv_sets, Scene& scene);
 
 }  // namespace render

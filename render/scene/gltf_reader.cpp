@@ -109,7 +109,7 @@ Environment read_environment(const GltfDocument& document) {
   const auto take = [&](const char* name, glm::vec3& colour) {
     if (!source.IsObject() || !source.Has(name)) return;
     for (int i = 0; i < 3; ++i) {
-      colour[i] = static_cast<float>(source.Get(name).Get(static_cast<std::size_t>(i)).GetNumberAsDouble());
+      colour[i] = static_cast<float>(source.Get(name).Get(i).GetNumberAsDouble());
       if (!(colour[i] >= 0.0F)) {
         document.fail("asset.extras.vergence." + std::string(name) + "[" + std::to_string(i) + "]",
                       "is " + std::to_string(colour[i]) + "; a radiance of 0 or more is allowed");
@@ -129,10 +129,10 @@ Scene read_gltf(const std::string& path) {
   Scene scene;
   scene.source = path;
   scene.environment = read_environment(document);
-  const std::vector<UvSource> uv_sources = read_materials(document, scene);
+  const std::vector<UvSets> uv_sets = read_materials(document, scene);
   for (const PlacedNode& placed : placed_nodes(document)) {
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(placed.index)];
-    if (node.mesh >= 0) append_mesh(document, node.mesh, placed.world_from_node, uv_sources, scene);
+    if (node.mesh >= 0) append_mesh(document, node.mesh, placed.world_from_node, uv_sets, scene);
     if (node.camera >= 0 && !scene.start_pose) scene.start_pose = rigid_pose(document, placed);
     if (is_target(node)) read_target(document, placed, scene);
     const auto light = node.extensions.find("KHR_lights_punctual");

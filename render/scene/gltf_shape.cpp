@@ -34,16 +34,32 @@ constexpr Field kTextureExtensions[] = {
 constexpr Field kTextureInfo[] = {{.name = "index", .kind = Kind::index, .required = true, .list = "/textures"},
                                   {.name = "texCoord", .kind = Kind::natural},
                                   {.name = "extensions", .kind = Kind::object, .fields = kTextureExtensions}};
+constexpr Field kNormalTexture[] = {{.name = "index", .kind = Kind::index, .required = true, .list = "/textures"},
+                                    {.name = "texCoord", .kind = Kind::natural},
+                                    {.name = "scale", .kind = Kind::number},
+                                    {.name = "extensions", .kind = Kind::object, .fields = kTextureExtensions}};
+constexpr Field kOcclusionTexture[] = {{.name = "index", .kind = Kind::index, .required = true, .list = "/textures"},
+                                       {.name = "texCoord", .kind = Kind::natural},
+                                       {.name = "strength", .kind = Kind::number},
+                                       {.name = "extensions", .kind = Kind::object, .fields = kTextureExtensions}};
 constexpr Field kPbr[] = {{.name = "baseColorFactor", .kind = Kind::numbers, .length = 4},
-                          {.name = "baseColorTexture", .kind = Kind::object, .fields = kTextureInfo}};
+                          {.name = "baseColorTexture", .kind = Kind::object, .fields = kTextureInfo},
+                          {.name = "metallicFactor", .kind = Kind::number},
+                          {.name = "roughnessFactor", .kind = Kind::number},
+                          {.name = "metallicRoughnessTexture", .kind = Kind::object, .fields = kTextureInfo}};
 constexpr Field kEmissiveStrength[] = {{.name = "emissiveStrength", .kind = Kind::number}};
 constexpr Field kMaterialExtensions[] = {
-    {.name = "KHR_materials_emissive_strength", .kind = Kind::object, .fields = kEmissiveStrength}};
+    {.name = "KHR_materials_emissive_strength", .kind = Kind::object, .fields = kEmissiveStrength},
+    {.name = "KHR_materials_unlit", .kind = Kind::object}};
 constexpr Field kMaterial[] = {{.name = "name", .kind = Kind::string},
                                {.name = "doubleSided", .kind = Kind::boolean},
                                {.name = "pbrMetallicRoughness", .kind = Kind::object, .fields = kPbr},
                                {.name = "emissiveFactor", .kind = Kind::numbers, .length = 3},
                                {.name = "emissiveTexture", .kind = Kind::object, .fields = kTextureInfo},
+                               {.name = "normalTexture", .kind = Kind::object, .fields = kNormalTexture},
+                               {.name = "occlusionTexture", .kind = Kind::object, .fields = kOcclusionTexture},
+                               {.name = "alphaMode", .kind = Kind::string},
+                               {.name = "alphaCutoff", .kind = Kind::number},
                                {.name = "extensions", .kind = Kind::object, .fields = kMaterialExtensions}};
 
 constexpr Field kBuffer[] = {{.name = "byteLength", .kind = Kind::natural, .required = true},

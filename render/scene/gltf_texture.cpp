@@ -11,6 +11,8 @@ namespace render {
 namespace {
 
 constexpr int kLargestEdge = 16384;
+// A picture of a few kilobytes may unpack to a gigabyte; decoding takes several times an image's own size.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
 
 Texture::Wrap wrap_mode(const GltfDocument& document, int sampler, const char* name, int mode) {
   switch (mode) {
@@ -63,6 +65,10 @@ void decode(const GltfDocument& document, const std::vector<std::uint8_t>& bytes
   if (width < 1 || height < 1 || width > kLargestEdge || height > kLargestEdge) {
     document.fail(field, "is " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels; 1 to 16384 each way are allowed");
+  }
+  if (std::int64_t{width} * height > kMostPixels) {
+    document.fail(field, "is " + std::to_string(width) + " x " + std::to_string(height) +
+                             " pixels; 67108864 in all are allowed");
   }
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -24,16 +25,35 @@ struct Texture {
   enum class Wrap : std::uint32_t { repeat, clamp, mirror };
   std::uint32_t width = 0, height = 0;
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  std::vector<std::uint8_t> rgba;  // sRGB-encoded colour, width * height * 4, top row first
+  std::vector<std::uint8_t> rgba;  // as stored in the image, width * height * 4, top row first
 };
 
+// A texture as a material uses it: sampled at linear * uv + offset (KHR_texture_transform).
+struct TextureUse {
+  std::int32_t index = -1;  // into Scene::textures; -1 for none
+  int second_uv = 0;        // 1: Scene::second_uvs instead of Vertex::uv
+  glm::mat2 linear{1.0F};
+  glm::vec2 offset{0.0F};
+};
+
+// glTF's metallic-roughness model.
 struct Material {
+  enum class Alpha : std::uint32_t { opaque, mask, blend };
   std::string name;
-  glm::vec4 base_colour{1.0F};            // linear
-  std::int32_t base_colour_texture = -1;  // index into Scene::textures
-  glm::vec3 emission{0.0F};               // linear radiance
-  std::int32_t emission_texture = -1;
-  bool double_sided = false;
+  glm::vec4 base_colour{1.0F};     // linear, times the texture and the vertex's colour
+  TextureUse base_colour_texture;  // sRGB, with alpha
+  glm::vec3 emission{0.0F};        // linear radiance
+  TextureUse emission_texture;     // sRGB
+  float metallic = 1.0F, roughness = 1.0F;
+  TextureUse surface_texture;  // linear: roughness in green, metallic in blue
+  TextureUse normal_texture;   // linear
+  float normal_scale = 1.0F;
+  TextureUse occlusion_texture;  // linear: red
+  float occlusion_strength = 1.0F;
+  Alpha alpha = Alpha::opaque;
+  float alpha_cutoff = 0.5F;  // mask: less is not there
+  bool double_sided = false;  // else the back is not seen
+  bool unlit = false;         // shows its base colour, whatever the light
 };
 
 struct Light {
@@ -62,6 +82,8 @@ struct Environment {
 struct Scene {
   std::string source;  // the file it came from
   std::vector<Vertex> vertices;
+  std::vector<glm::vec2> second_uvs;             // one a vertex, or empty: no material uses them
+  std::vector<glm::vec4> colours;                // linear, one a vertex, or empty: all white
   std::vector<glm::uvec3> triangles;             // indices into vertices, counter-clockwise front
   std::vector<std::uint32_t> triangle_material;  // one a triangle
   std::vector<Material> materials;               // at least one

@@ -6,8 +6,8 @@
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
 
-layout(constant_id = 1) const uint kWavefront = 1u;       // 0: pinhole, no wavefront is traced
-layout(constant_id = 2) const uint kKeepWavefront = 0u;   // 1: write the wavefront buffer
+layout(constant_id = 2) const uint kWavefront = 1u;       // 0: pinhole, no wavefront is traced
+layout(constant_id = 3) const uint kKeepWavefront = 0u;   // 1: write the wavefront buffer
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 10) writeonly buffer Pixels { uvec4 pixels[]; };

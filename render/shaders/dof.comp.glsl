@@ -3,6 +3,7 @@
 // Distributed rays (paper, section 6.2): one more ray a pixel through another point of the pixel and of the pupil, each
 // traced through the real lens. The ray through pupil offset s leaves with p = -(E - I/l) s relative to the chief ray,
 // which needs no focal lines. Sums and squares stay in a buffer between samples.
+#define FOOTPRINT_PIXELS 0.25  // the samples themselves average over the pixel
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Pixels at an edge - another material, face, status, depth or a jump of radiance beside them - get four rays more, on a
 // rotated grid; the radiance becomes the mean over the pixel's square, the filter that every mode integrates.
+#define FOOTPRINT_PIXELS 0.5  // four rays a pixel
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"

@@ -7,7 +7,13 @@ struct PixelRay {
   float depth;     // m along the refracted ray, 0 = sky, -1 = none
   vec3 normal;
   uint material;
+  RayTransfer transfer;  // from the pupil to where the ray leaves for the scene
 };
+
+// What one ray's texture samples average over, in pixels: less where several rays share a pixel.
+#ifndef FOOTPRINT_PIXELS
+#define FOOTPRINT_PIXELS 1.0
+#endif
 
 const vec3 kRimRadiance = vec3(0.015);
 
@@ -42,6 +48,103 @@ bool shows_rim(int status) {
   return status == kStatusInverted || status == kStatusTirFront || status == kStatusMissFront || status == kStatusSingular;
 }
 
+// Where neighbouring pixels' rays run beside this one: offsets across the ray, where it leaves for the scene and more
+// for each metre (world). A pixel's step in direction, taken through the ray-transfer matrix.
+struct Beam {
+  Footprint start;
+  Footprint growth;
+};
+
+Beam pixel_beam(ViewData view, PixelRay ray) {
+  SightLine line = ray.line;
+  vec3 e1 = line.e_h;
+  vec3 e2 = line.e_v;
+  if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
+    // The basis that the transfer carries along (refract_transfer), in the lens's axes and back.
+    mat3 frame = view.lens.mount.x == 1 ? line.turn : mat3(1.0);
+    vec3 f = to_lens_direction(view.lens, transpose(frame) * line.e_h);
+    f = normalize(f - dot(f, line.path.direction_glass) * line.path.direction_glass);
+    f = normalize(f - dot(f, line.path.direction_object) * line.path.direction_object);
+    e1 = frame * from_lens_direction(view.lens, f);
+    e2 = cross(e1, line.direction_object);
+  }
+  vec3 w1 = world_direction(view, e1);
+  vec3 w2 = world_direction(view, e2);
+  float cosine = -dot(line.direction, view.picture_z.xyz);
+  float step_x = FOOTPRINT_PIXELS * cosine * (view.tangents.x + view.tangents.y) / float(frame.size.x);
+  float step_y = FOOTPRINT_PIXELS * cosine * (view.tangents.z + view.tangents.w) / float(frame.size.y);
+  vec2 px = step_x * vec2(dot(view.picture_x.xyz, line.e_h), dot(view.picture_x.xyz, line.e_v));
+  vec2 py = step_y * vec2(dot(view.picture_y.xyz, line.e_h), dot(view.picture_y.xyz, line.e_v));
+  // The scanning eye's pupil moves along with the direction.
+  float pupil = int(view.gaze.w) == kViewingScanning ? view.eye.pupil.y : 0.0;
+  mat2 x = ray.transfer.b + pupil * ray.transfer.a;
+  mat2 p = ray.transfer.d + pupil * ray.transfer.c;
+  vec2 x_across = x * px;
+  vec2 x_up = x * py;
+  vec2 p_across = p * px;
+  vec2 p_up = p * py;
+  Beam beam;
+  beam.start = Footprint(x_across.x * w1 + x_across.y * w2, x_up.x * w1 + x_up.y * w2);
+  beam.growth = Footprint(p_across.x * w1 + p_across.y * w2, p_up.x * w1 + p_up.y * w2);
+  return beam;
+}
+
+// The layers along the ray, front to back; what blends lets the rest through. Depth, normal and material are those of
+// the layer that the eye sees most of: the first with more than half of the light in front of its back.
+void trace_scene(ViewData view, inout PixelRay ray, vec3 origin, vec3 towards) {
+  Beam beam;
+  if (HAS(kFeatureTexture)) {
+    beam = pixel_beam(view, ray);
+  }
+  vec3 radiance = vec3(0.0);
+  float through = 1.0;
+  float before = 0.0;  // m from where the ray left for the scene
+  bool decided = false;
+  uint first_material = 0u;
+  const int layers = HAS(kFeatureBlend) ? kMostLayers : 1;
+  for (int layer = 0; layer < layers; ++layer) {
+    Hit hit;
+    bool met = trace_closest(origin, towards, 1e30, hit);
+    Surface surface;
+    surface.radiance = vec3(0.0);
+    surface.normal = vec3(0.0);
+    surface.alpha = 1.0;
+    float depth = 0.0;
+    if (met) {
+      depth = before + hit.t;
+      Footprint footprint;
+      if (HAS(kFeatureTexture)) {
+        footprint.across = beam.start.across + depth * beam.growth.across;
+        footprint.up = beam.start.up + depth * beam.growth.up;
+      }
+      surface = shade_hit(hit, origin, towards, footprint);
+    } else {
+      surface.radiance = sky_radiance(towards);
+    }
+    bool last = layer + 1 == layers || surface.alpha >= 1.0;
+    float share = last ? through : through * surface.alpha;
+    radiance += share * surface.radiance;
+    through -= share;
+    if (!decided && (last || through <= 0.5)) {
+      decided = true;
+      ray.depth = depth;
+      ray.normal = surface.normal;
+      ray.material = met ? hit.material : 0xffffu;
+      if (layer > 0) {
+        ray.material ^= (first_material + 1u) << 5;  // the edge of a pane is an edge
+      }
+    }
+    if (last || through < 1.0 / 512.0) {
+      break;
+    }
+    first_material = layer == 0 ? hit.material : first_material;
+    float on = hit.t + lift(origin + hit.t * towards);
+    origin += on * towards;
+    before += on;
+  }
+  ray.radiance = radiance;
+}
+
 PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
   PixelRay ray;
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
@@ -54,19 +157,11 @@ PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 mome
   if (shows_rim(ray.status)) {
     return ray;
   }
-  vec3 origin = world_point(view, ray.line.start);
-  vec3 towards = normalize(world_direction(view, ray.line.direction_object));
-  Hit hit;
-  if (trace_closest(origin, towards, 1e30, hit)) {
-    Surface surface = shade_hit(hit, origin, towards);
-    ray.radiance = surface.radiance;
-    ray.normal = surface.normal;
-    ray.material = hit.material;
-    ray.depth = hit.t;
-  } else {
-    ray.radiance = sky_radiance(towards);
-    ray.depth = 0.0;
+  ray.transfer = free_flight(0.0);
+  if (ray.status == kStatusOk) {
+    ray.transfer = sight_line_transfer(view.lens, ray.line);
   }
+  trace_scene(view, ray, world_point(view, ray.line.start), normalize(world_direction(view, ray.line.direction_object)));
   if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
     ray.radiance *= view.tint.rgb;
   }
@@ -86,8 +181,7 @@ PixelWavefront pixel_wavefront(ViewData view, inout PixelRay ray) {
   w.vergence = vec3(0.0);
   float q = ray.depth > 0.0 ? 1.0 / max(ray.depth, 1e-6) : 0.0;
   if (ray.status == kStatusOk) {
-    RayTransfer transfer = sight_line_transfer(view.lens, ray.line);
-    w.vergence = sight_line_vergence(transfer, q, ray.status);
+    w.vergence = sight_line_vergence(ray.transfer, q, ray.status);
   } else if (ray.status == kStatusMissBack) {
     w.vergence = vec3(-q, 0.0, -q);
   }

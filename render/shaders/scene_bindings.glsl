@@ -3,11 +3,13 @@ layout(binding = 0) uniform samplerBuffer lens_table;
 layout(binding = 1) uniform usamplerBuffer bvh_nodes;
 layout(binding = 2) uniform samplerBuffer bvh_triangles;
 layout(binding = 3) uniform samplerBuffer shading_triangles;
-layout(binding = 4) uniform usamplerBuffer texels;  // RGB9E5, linear
+layout(binding = 4) uniform usamplerBuffer texels;  // render/scene/texture_texels.hpp
 
 layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a surface of kind k
 #define USED_KINDS kSurfaceKinds
-layout(constant_id = 3) const uint kBare = 0u;  // 1: the first light only, without shadow rays
+layout(constant_id = 4) const uint kBare = 0u;  // 1: the first light only, without shadow rays
+layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // what the scene has need of, kFeature... of view.h
+#define HAS(features) ((kSceneFeatures & uint(features)) != 0u)
 
 #include "lenses/gpu/optics.h"
 #include "render/shaders/frame.h"
@@ -22,4 +24,7 @@ layout(std430, binding = 8) readonly buffer Materials { MaterialData materials[]
 layout(std430, binding = 9) readonly buffer Textures { TextureData textures[]; };
 layout(push_constant) uniform Frame { FrameData frame; };
 
+#include "render/scene/gpu/bvh_layout.h"
+#include "render/shaders/texture.glsl"
+#include "render/shaders/alpha.glsl"
 #include "render/shaders/traverse_bvh4.glsl"

@@ -7,6 +7,11 @@
 
 #include "render/scene/gpu/bvh_layout.h"
 
+// Whether a triangle that the ray's line crosses counts; flags are kBvhCulled and its fellows.
+#ifndef VERGENCE_MEETS
+#define VERGENCE_MEETS(flags, front, triangle, material, u, v) true
+#endif
+
 struct Hit {
   float t;        // in lengths of the direction
   uint triangle;  // in leaf order; kNoTriangle for a miss
@@ -44,7 +49,8 @@ Hit closer_hit(Hit best, uint triangle, vec3 origin, vec3 direction) {
   int texel = int(triangle * kBvhTriangleTexels);
   vec4 corner = texelFetch(bvh_triangles, texel);
   vec3 e1 = vec3(texelFetch(bvh_triangles, texel + 1));
-  vec3 e2 = vec3(texelFetch(bvh_triangles, texel + 2));
+  vec4 last = texelFetch(bvh_triangles, texel + 2);
+  vec3 e2 = vec3(last);
   vec3 p = cross(direction, e2);
   float determinant = dot(e1, p);
   float inverse = 1.0f / determinant;
@@ -54,11 +60,14 @@ Hit closer_hit(Hit best, uint triangle, vec3 origin, vec3 direction) {
   float v = dot(direction, q) * inverse;
   float t = dot(e2, q) * inverse;
   if (determinant != 0.0f && u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t > 0.0f && t < best.t) {
-    best.t = t;
-    best.triangle = triangle;
-    best.material = floatBitsToUint(corner.w);
-    best.u = u;
-    best.v = v;
+    uint material = floatBitsToUint(corner.w);
+    if (VERGENCE_MEETS(floatBitsToUint(last.w), determinant > 0.0f, triangle, material, u, v)) {
+      best.t = t;
+      best.triangle = triangle;
+      best.material = material;
+      best.u = u;
+      best.v = v;
+    }
   }
   return best;
 }

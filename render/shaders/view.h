@@ -30,19 +30,58 @@ struct LightData {
   vec4 cone;       // cosines of the inner and outer angle
 };
 
+// A material's textures, in the order of its transforms.
+const int kSlotBaseColour = 0;
+const int kSlotEmission = 1;
+const int kSlotSurface = 2;  // roughness in green, metallic in blue
+const int kSlotNormal = 3;
+const int kSlotOcclusion = 4;
+const int kTextureSlots = 5;
+
+const int kMaterialMatte = 1;  // neither metallic nor smooth anywhere
+const int kMaterialBlends = 2;
+const int kMaterialUnlit = 4;
+
+// Textures are indices or -1.
 struct MaterialData {
   vec4 base_colour;  // linear
-  vec4 emission;     // linear radiance; w: 1 if double sided
-  ivec4 textures;    // base colour, emission: index or -1
+  vec4 emission;     // linear radiance
+  ivec4 textures;    // base colour, emission, surface, normal
+  ivec4 flags;       // kMaterial..., bit k: slot k takes the second coordinates, alpha texture, occlusion texture
+  vec4 surface;      // metallic, roughness, -, alpha cutoff
+  vec4 maps;         // normal scale, occlusion strength
+  vec4 uv_linear[kTextureSlots];  // columns of KHR_texture_transform's matrix
+  vec4 uv_offset[kTextureSlots];
 };
 
+// How a texture's texels are stored.
+const int kTexelColour = 0;  // RGB9E5, linear
+const int kTexelData = 1;    // 4 x 8 bit
+const int kTexelAlpha = 2;   // four texels a word
+const int kTextureHeader = 16;  // words before the finest level: where each level begins, from the first of them
+
 struct TextureData {
-  ivec4 size;  // first texel, width, height, wrap_u | wrap_v << 8
+  ivec4 size;  // first word, width, height, wrap_u | wrap_v << 8 | kTexel... << 16
+  ivec4 more;  // levels
 };
+
+// What a scene has need of: kernels are compiled without the rest.
+const int kFeatureCull = 1;        // single-sided triangles
+const int kFeatureMask = 2;        // cut-out materials
+const int kFeatureBlend = 4;       // blended materials
+const int kFeatureTexture = 8;
+const int kFeatureShiny = 16;      // materials that are not matte
+const int kFeatureMaps = 32;       // surface, normal or occlusion textures
+const int kFeatureColours = 64;    // vertex colours
+const int kFeatureSecondUv = 128;
+const int kFeatureTransform = 256;
+const int kFeatureUnlit = 512;
+const int kFeatureEmission = 1024;  // emission textures
+const int kMostLayers = 8;         // of what blends, along a ray
 
 struct EnvironmentData {
   vec4 sky_zenith;
   vec4 sky_horizon;
   vec4 ambient;
-  ivec4 counts;  // lights
+  ivec4 counts;  // lights, first texel of the second coordinates and colours
 };

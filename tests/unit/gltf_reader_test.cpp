@@ -214,8 +214,8 @@ TEST(GltfReader, materials) {
   EXPECT_EQ(material.base_colour, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
   EXPECT_EQ(material.emission, glm::vec3(4, 2, 8));
   EXPECT_TRUE(material.double_sided);
-  EXPECT_EQ(material.base_colour_texture, 0);
-  EXPECT_EQ(material.emission_texture, 0) << "one texture decoded once";
+  EXPECT_EQ(material.base_colour_texture.index, 0);
+  EXPECT_EQ(material.emission_texture.index, 0) << "one texture decoded once";
 }
 
 TEST(GltfReader, a_primitive_without_material_is_white_and_dark) {
@@ -254,17 +254,99 @@ TEST(GltfReader, sampler_wrap_modes) {
   EXPECT_EQ(read(g).textures[0].wrap_v, Wrap::mirror);
 }
 
+// glTF 2.0, section 3.9.2: what is not said is metallic 1 and roughness 1.
+TEST(GltfReader, metallic_roughness_with_its_textures_and_defaults) {
+  Gltf g = textured();
+  EXPECT_EQ(read(g).materials[0].metallic, 1.0F);
+  EXPECT_EQ(read(g).materials[0].roughness, 1.0F);
+  json& material = g.root["materials"][0];
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0.25;
+  material["pbrMetallicRoughness"]["roughnessFactor"] = 0.5;
+  material["pbrMetallicRoughness"]["metallicRoughnessTexture"] = {{"index", 0}};
+  material["normalTexture"] = {{"index", 0}, {"scale", 0.75}};
+  material["occlusionTexture"] = {{"index", 0}, {"strength", 0.5}};
+  const render::Material m = read(g).materials[0];
+  EXPECT_EQ(m.metallic, 0.25F);
+  EXPECT_EQ(m.roughness, 0.5F);
+  EXPECT_EQ(m.surface_texture.index, 0);
+  EXPECT_EQ(m.normal_texture.index, 0);
+  EXPECT_EQ(m.normal_scale, 0.75F);
+  EXPECT_EQ(m.occlusion_texture.index, 0);
+  EXPECT_EQ(m.occlusion_strength, 0.5F);
+  material["pbrMetallicRoughness"]["roughnessFactor"] = 1.5;
+  expect_refused(g, "materials[0].pbrMetallicRoughness.roughnessFactor", "0 to 1");
+}
+
+TEST(GltfReader, alpha_modes_and_unlit) {
+  using Alpha = render::Material::Alpha;
+  Gltf g = square();
+  json& material = g.root["materials"][0];
+  EXPECT_EQ(read(g).materials[0].alpha, Alpha::opaque);
+  material["alphaMode"] = "MASK";
+  EXPECT_EQ(read(g).materials[0].alpha, Alpha::mask);
+  EXPECT_EQ(read(g).materials[0].alpha_cutoff, 0.5F);
+  material["alphaCutoff"] = 0.25;
+  EXPECT_EQ(read(g).materials[0].alpha_cutoff, 0.25F);
+  material["alphaMode"] = "BLEND";
+  EXPECT_EQ(read(g).materials[0].alpha, Alpha::blend);
+  EXPECT_FALSE(read(g).materials[0].unlit);
+  material["extensions"]["KHR_materials_unlit"] = json::object();
+  g.root["extensionsRequired"] = {"KHR_materials_unlit"};
+  EXPECT_TRUE(read(g).materials[0].unlit);
+  material["alphaMode"] = "DITHER";
+  expect_refused(g, "materials[0].alphaMode", "MASK");
+}
+
+TEST(GltfReader, vertex_colours) {
+  Gltf g = square();
+  EXPECT_TRUE(read(g).colours.empty());
+  const int colours = g.accessor(std::vector<std::uint8_t>{255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 51, 51, 51, 0},
+                                 "VEC3", kU8, 4, 4);
+  g.root["accessors"][static_cast<std::size_t>(colours)]["normalized"] = true;
+  primitive(g)["attributes"]["COLOR_0"] = colours;
+  const Scene scene = read(g);
+  ASSERT_EQ(scene.colours.size(), scene.vertices.size());
+  EXPECT_EQ(scene.colours[scene.triangles[0].x], glm::vec4(1, 0, 0, 1));
+  EXPECT_EQ(scene.colours[scene.triangles[0].y], glm::vec4(0, 1, 0, 1));
+  EXPECT_EQ(scene.colours[scene.triangles[1].z], glm::vec4(0.2F, 0.2F, 0.2F, 1));
+  g.root["accessors"][static_cast<std::size_t>(colours)].erase("normalized");
+  expect_refused(g, "meshes[0].primitives[0].attributes.COLOR_0", "normalised");
+}
+
 TEST(GltfReader, texture_transform_scales_turns_and_shifts) {
   Gltf g = textured();
   json& info = g.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
   info["extensions"]["KHR_texture_transform"] = {
       {"offset", {0.25, 0.5}}, {"scale", {2, 3}}, {"rotation", std::acos(0.0)}};
-  const Scene scene = read(g);
+  const render::TextureUse use = read(g).materials[0].base_colour_texture;
+  const auto moved = [](const render::TextureUse& u, const glm::vec2& uv) { return u.linear * uv + u.offset; };
   // (1, 0) -> (2, 0) -> a quarter turn, counter-clockwise with v downwards: (0, -2) -> (0.25, -1.5)
-  EXPECT_NEAR(scene.vertices[1].uv.x, 0.25F, 1e-6F);
-  EXPECT_NEAR(scene.vertices[1].uv.y, -1.5F, 1e-6F);
-  g.root["materials"][0]["emissiveTexture"] = {{"index", 0}};
-  expect_refused(g, "materials[0].emissiveTexture", "agree");
+  EXPECT_NEAR(moved(use, {1, 0}).x, 0.25F, 1e-6F);
+  EXPECT_NEAR(moved(use, {1, 0}).y, -1.5F, 1e-6F);
+  // The extension's own example: the lower left quadrant, turned.
+  info["extensions"]["KHR_texture_transform"] = {
+      {"offset", {0, 1}}, {"scale", {0.5, 0.5}}, {"rotation", std::acos(0.0)}};
+  const render::TextureUse quadrant = read(g).materials[0].base_colour_texture;
+  for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)}) {
+    const glm::vec2 at = moved(quadrant, corner);
+    EXPECT_TRUE(at.x > -1e-6F && at.x < 0.5F + 1e-6F && at.y > 0.5F - 1e-6F && at.y < 1.0F + 1e-6F)
+        << at.x << ' ' << at.y;
+  }
+}
+
+TEST(GltfReader, two_sets_of_texture_coordinates_a_material) {
+  Gltf g = textured();
+  primitive(g)["attributes"]["TEXCOORD_3"] = g.accessor(std::vector<float>{5, 0, 6, 0, 6, 1, 5, 1}, "VEC2", kF32, 4);
+  json& material = g.root["materials"][0];
+  material["emissiveTexture"] = {{"index", 0}, {"texCoord", 3}};
+  const Scene scene = read(g);
+  EXPECT_EQ(scene.materials[0].base_colour_texture.second_uv, 0);
+  EXPECT_EQ(scene.materials[0].emission_texture.second_uv, 1);
+  ASSERT_EQ(scene.second_uvs.size(), scene.vertices.size());
+  EXPECT_EQ(scene.vertices[scene.triangles[0].y].uv, glm::vec2(1, 0));
+  EXPECT_EQ(scene.second_uvs[scene.triangles[0].y], glm::vec2(6, 0));
+  material["normalTexture"] = {{"index", 0}, {"texCoord", 1}};
+  expect_refused(g, "materials[0].normalTexture.texCoord", "two are allowed");
 }
 
 TEST(GltfReader, lights) {

@@ -9,8 +9,11 @@
 // kBvhLeafBit | first triangle << kBvhLeafFirstShift | count, or kBvhNoChild (its box is inverted: low 255, high 0).
 // The root is node 0.
 //
-// A triangle is three vec4 (leaf order): (v0, bits(material)), (v1 - v0, bits(original triangle)), (v2 - v0, 0).
+// A triangle is three vec4 (leaf order): (v0, bits(material)), (v1 - v0, bits(original triangle)),
+// (v2 - v0, bits(kBvhCulled...)).
 // Its shading data are four vec4: (n0, u0), (n1, u1), (n2, u2), (v0, v1, v2, 0) with (u, v) texture coordinates.
+// Where the scene has second coordinates or colours, three more vec4 a triangle follow after all of those: six floats
+// (u, v) of the corners, then the corners' r, g, b, a as twelve half floats.
 #ifndef VERGENCE_RENDER_SCENE_GPU_BVH_LAYOUT_H
 #define VERGENCE_RENDER_SCENE_GPU_BVH_LAYOUT_H
 
@@ -25,6 +28,10 @@ namespace render {
 VERGENCE_BVH_UINT kBvhNodeTexels = 4u;
 VERGENCE_BVH_UINT kBvhTriangleTexels = 3u;
 VERGENCE_BVH_UINT kBvhShadingTexels = 4u;
+VERGENCE_BVH_UINT kBvhMoreTexels = 3u;
+VERGENCE_BVH_UINT kBvhCulled = 1u;   // its back is not seen
+VERGENCE_BVH_UINT kBvhCutOut = 2u;   // its alpha decides whether it is there
+VERGENCE_BVH_UINT kBvhBlends = 4u;   // its alpha mixes it with what lies behind
 VERGENCE_BVH_UINT kBvhLeafBit = 0x80000000u;
 VERGENCE_BVH_UINT kBvhLeafFirstShift = 4u;
 VERGENCE_BVH_UINT kBvhLeafFirstMask = 0x07FFFFFFu;  // after the shift: fewer than 2^27 triangles

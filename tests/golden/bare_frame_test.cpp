@@ -44,15 +44,20 @@ render::Scene wall_scene(bool shelf, bool second_light) {
 }
 
 render::RenderedFrame draw(const render::Scene& scene, bool bare) {
-  render::vk::Device device;
+  render::vk::Device device({.validation = true});
   const support::WornPair pair = support::wear(lenses::Wearer{}, nullptr, {});
   render::FrameConfig config;
   config.width = config.height = 48;
   config.mode = render::Mode::pinhole;
   config.bare = bare;
   const auto fov = tracking::FieldOfView::symmetric(40.0 * support::kDegree, 1.0);
-  return render::Renderer(device, scene)
-      .render(pair.model, {support::view_along(pair, 0, support::Viewing::fixed, {0, 0, -1}, fov)}, config);
+  auto frame =
+      render::Renderer(device, scene)
+          .render(pair.model, {support::view_along(pair, 0, support::Viewing::fixed, {0, 0, -1}, fov)}, config);
+  for (const std::string& message : device.validation_messages()) {
+    ADD_FAILURE() << message;
+  }
+  return frame;
 }
 
 bool has_stage(const render::RenderedFrame& frame, const std::string& name) {

@@ -102,7 +102,7 @@ Fixation fixate_along(const lenses::f64::Table& table, const std::array<EyeOptic
   const LineOfSight left = look_along(table, eyes[1], viewing, gaze);
   const glm::dvec3 start = 0.5 * (right.start + left.start);
   const glm::dvec3 direction = glm::normalize(right.direction + left.direction);
-  const auto hit = scene.closest(start, direction);
+  const auto hit = scene.looked_at(start, direction);
   const double distance = hit ? hit->distance : kSkyDistance;
   return fixate(table, eyes, viewing, start + distance * direction,
                 hit ? distance : std::numeric_limits<double>::infinity());

@@ -120,7 +120,7 @@ Fixation look_parallel(const lenses::f64::Table& table, const std::array<EyeOpti
   for (std::size_t i = 0; i < 2; ++i) {
     LineOfSight& line = fixation.line[i];
     line = look_along(table, eyes[i], viewing, gaze);
-    const auto hit = scene.closest(line.start, line.direction);
+    const auto hit = scene.looked_at(line.start, line.direction);
     line.point = line.start + (hit ? hit->distance : kSkyDistance) * line.direction;
     if (hit) {
       fixation.distance = std::min(fixation.distance, glm::length(line.point - midpoint(eyes)));
@@ -136,7 +136,7 @@ Fixation fixate_along(const lenses::f64::Table& table, const std::array<EyeOptic
   const LineOfSight left = look_along(table, eyes[1], viewing, gaze);
   const glm::dvec3 start = 0.5 * (right.start + left.start);
   const glm::dvec3 direction = glm::normalize(right.direction + left.direction);
-  const auto hit = scene.closest(start, direction);
+  const auto hit = scene.looked_at(start, direction);
   const glm::dvec3 point = start + (hit ? hit->distance : kSkyDistance) * direction;
   return fixate(table, eyes, viewing, point,
                 hit ? glm::length(point - midpoint(eyes)) : std::numeric_limits<double>::infinity());

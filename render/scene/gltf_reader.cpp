@@ -122,6 +122,20 @@ Environment read_environment(const GltfDocument& document) {
   return environment;
 }
 
+// Shapes cannot be told apart by light from everywhere alone: a file that says nothing of light gets a sun.
+Light default_sun() {
+  Light sun;
+  sun.type = Light::Type::directional;
+  sun.direction = glm::normalize(glm::vec3(-0.4F, -1.0F, -0.6F));
+  sun.colour = glm::vec3(2.0F);
+  return sun;
+}
+
+bool says_its_light(const GltfDocument& document, const Scene& scene) {
+  const tinygltf::Value& extras = document.model.asset.extras;
+  return !scene.lights.empty() || (extras.IsObject() && extras.Has("vergence"));
+}
+
 }  // namespace
 
 Scene read_gltf(const std::string& path) {
@@ -140,6 +154,7 @@ Scene read_gltf(const std::string& path) {
       scene.lights.push_back(read_light(document, light->second.Get("light").GetNumberAsInt(), placed));
     }
   }
+  if (!says_its_light(document, scene)) scene.lights.push_back(default_sun());
   if (scene.triangles.empty()) document.fail("meshes", "shows no triangles; a scene needs at least one");
   return scene;
 }

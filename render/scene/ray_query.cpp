@@ -16,6 +16,15 @@ struct RayQuery::State {
   EmbreeScene scene;
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;
+  std::vector<bool> single_sided, clear;  // of each triangle
+
+  [[nodiscard]] bool is_passed(const glm::dvec3& direction, std::uint32_t triangle) const {
+    if (clear[triangle]) return true;
+    const glm::uvec3 index = triangles[triangle];
+    const glm::dvec3 v0(positions[index.x]);
+    const glm::dvec3 normal = glm::cross(glm::dvec3(positions[index.y]) - v0, glm::dvec3(positions[index.z]) - v0);
+    return single_sided[triangle] && glm::dot(normal, direction) > 0.0;
+  }
 
   // Distance along a unit direction to the triangle's plane, in double precision: Embree's float distance is only good
   // to 1e-7 of the coordinates. Its own value where the ray lies almost in the plane.
@@ -36,6 +45,11 @@ RayQuery::RayQuery(const Scene& scene) : state_(std::make_unique<State>()) {
   s.positions.reserve(scene.vertices.size());
   for (const Vertex& vertex : scene.vertices) s.positions.push_back(vertex.position);
   s.triangles = scene.triangles;
+  for (const std::uint32_t index : scene.triangle_material) {
+    const Material& material = scene.materials.at(index);
+    s.single_sided.push_back(!material.double_sided);
+    s.clear.push_back(material.alpha == Material::Alpha::blend && material.base_colour.a < 0.5F);
+  }
   s.device = make_embree_device();
   s.scene.reset(rtcNewScene(s.device.get()));
   rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -79,6 +93,26 @@ std::optional<RayQuery::Hit> RayQuery::closest(glm::dvec3 origin, glm::dvec3 dir
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const double distance = state_->refine(origin, unit, ray.hit.primID, static_cast<double>(ray.ray.tfar));
   return Hit{distance, ray.hit.primID};
+}
+
+std::optional<RayQuery::Hit> RayQuery::looked_at(glm::dvec3 origin, glm::dvec3 direction) const {
+  constexpr int kMostPassed = 64;
+  double before = 0.0;
+  const glm::dvec3 unit = direction / glm::length(direction);
+  for (int i = 0; i < kMostPassed; ++i) {
+    std::optional<Hit> hit = closest(origin, direction);
+    if (!hit) return std::nullopt;
+    if (!state_->is_passed(unit, hit->triangle)) {
+      hit->distance += before;
+      return hit;
+    }
+    // On by more than the rounding of Embree's coordinates.
+    const glm::dvec3 at = origin + hit->distance * unit;
+    const double on = hit->distance + 1e-5 + 2e-6 * std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+    origin += on * unit;
+    before += on;
+  }
+  return std::nullopt;
 }
 
 }  // namespace render

@@ -29,6 +29,10 @@ class RayQuery {
   // direction. Safe to call from several threads.
   [[nodiscard]] std::optional<Hit> closest(glm::dvec3 origin, glm::dvec3 direction) const;
 
+  // The same for an eye that looks: past the backs of single-sided triangles and past what blends with less than half
+  // of the light behind it. Holes of cut-out textures are not looked through.
+  [[nodiscard]] std::optional<Hit> looked_at(glm::dvec3 origin, glm::dvec3 direction) const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

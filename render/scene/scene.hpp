@@ -95,7 +95,8 @@ struct Scene {
 };
 
 // Reads a .gltf or .glb and checks every index, size, type, finiteness and cycle. Throws tracking::InputError{file,
-// field (as a dotted path such as meshes[0].primitives[0].indices), reason}.
+// field (as a dotted path such as meshes[0].primitives[0].indices), reason}. A file with neither lights nor
+// extras.vergence gets a sun.
 [[nodiscard]] Scene read_gltf(const std::string& path);
 
 }  // namespace render

@@ -439,6 +439,22 @@ TEST(RayQuery, nothing_for_misses_and_unsound_rays) {
   EXPECT_FALSE(query.closest({0, 0, 0}, {nan, 0, -1}));
 }
 
+TEST(RayQuery, an_eye_looks_past_backs_and_clear_panes) {
+  render::Scene scene = scene_oracle::one_triangle();
+  const auto look = [&](double z) {  // at the triangle at z = -2
+    return render::RayQuery(scene).looked_at({0.1, 0.1, z}, {0, 0, z > -2 ? -1 : 1});
+  };
+  EXPECT_NE(look(1.0).has_value(), look(-5.0).has_value()) << "one of its sides is its back";
+  scene.materials[0].double_sided = true;
+  EXPECT_TRUE(look(1.0) && look(-5.0));
+  EXPECT_NEAR(look(1.0)->distance, 3.0, 1e-6);
+  scene.materials[0].alpha = render::Material::Alpha::blend;
+  EXPECT_TRUE(look(1.0)) << "opaque for all its mode says";
+  scene.materials[0].base_colour.a = 0.25F;
+  EXPECT_FALSE(look(1.0));
+  EXPECT_TRUE(render::RayQuery(scene).closest({0.1, 0.1, 1.0}, {0, 0, -1}));
+}
+
 TEST(RayQuery, survives_a_move_and_finds_the_nearest) {
   render::RayQuery first(scene_oracle::nested_boxes());
   const render::RayQuery query = std::move(first);

@@ -14,7 +14,7 @@ TEST(GltfReader, a_square) {
   for (const auto& vertex : scene.vertices) expect_near(vertex.normal, {0, 0, 1});
   EXPECT_EQ(scene.materials.at(0).name, "paint");
   EXPECT_FALSE(scene.start_pose);
-  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.lights.size(), 1U) << "the sun of a file without any";
 }
 
 TEST(GltfReader, the_binary_container_reads_the_same) {
@@ -370,6 +370,14 @@ TEST(GltfReader, lights) {
   EXPECT_FLOAT_EQ(spot.lights[0].cos_inner, std::cos(0.5F));
   EXPECT_FLOAT_EQ(spot.lights[0].cos_outer, std::cos(1.0F));
   EXPECT_EQ(spot.lights[0].range, 0.0F);
+}
+
+TEST(GltfReader, a_file_that_says_nothing_of_light_gets_a_sun) {
+  Gltf g = square();
+  ASSERT_EQ(read(g).lights.size(), 1U);
+  EXPECT_EQ(read(g).lights[0].type, render::Light::Type::directional);
+  g.root["asset"]["extras"]["vergence"] = {{"ambient", {1, 1, 1}}};
+  EXPECT_TRUE(read(g).lights.empty());
 }
 
 TEST(GltfReader, the_first_camera_gives_the_start_pose_without_scale) {

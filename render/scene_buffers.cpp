@@ -121,9 +121,7 @@ void append_more(const Scene& scene, const Bvh4& bvh, std::vector<ShadingTriangl
       uv[corner] = vertex < scene.second_uvs.size() ? scene.second_uvs[vertex] : glm::vec2(0.0F);
       colour[corner] = vertex < scene.colours.size() ? scene.colours[vertex] : glm::vec4(1.0F);
     }
-    const auto halves = [&](int corner, int from) {
-      return word({colour[corner][from], colour[corner][from + 1]});
-    };
+    const auto halves = [&](int corner, int from) { return word({colour[corner][from], colour[corner][from + 1]}); };
     more.emplace_back(uv[0], uv[1]);
     more.emplace_back(uv[2].x, uv[2].y, halves(0, 0), halves(0, 2));
     more.emplace_back(halves(1, 0), halves(1, 2), halves(2, 0), halves(2, 2));

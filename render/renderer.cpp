@@ -64,8 +64,7 @@ class FrameJob {
     for (const ViewSetup& view : views) {
       worn.push_back(lenses.lens[view.lens]);
     }
-    variant_ = {surface_kinds(worn), scene.features, config.mode != Mode::pinhole || config.keep_wavefront,
-                keeps_wavefront(config)};
+    variant_ = {surface_kinds(worn), scene.features, config.mode != Mode::pinhole || config.keep_wavefront, keeps_wavefront(config)};
     data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
     data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
     // A pinhole picture is the defocused one with nothing left to blur.

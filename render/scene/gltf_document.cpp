@@ -156,8 +156,11 @@ json parse_json(const std::string& file, std::string_view text) {
   try {
     return json::parse(text, bounded);
   } catch (const json::exception& error) {
-    throw tracking::InputError(file, "",
-                               "is not valid JSON: " + one_line(error.what()) + "; a .gltf or .glb file is expected");
+    // Without the library's own name for it, which stands in brackets.
+    const std::string what = error.what();
+    const std::size_t name = what.find("] ");
+    const std::string said = what.substr(name == std::string::npos ? 0 : name + 2);
+    throw tracking::InputError(file, "", "is not valid JSON: " + one_line(said) + "; a .gltf or .glb file is expected");
   }
 }
 

@@ -64,8 +64,7 @@ class MaterialReader {
       material.emission[i] = strength * factor(source.emissiveFactor, i, 0.0, field_ + ".emissiveFactor");
     }
     material.normal_scale = static_cast<float>(source.normalTexture.scale);
-    material.occlusion_strength =
-        unit_number(source.occlusionTexture.strength, field_ + ".occlusionTexture.strength");
+    material.occlusion_strength = unit_number(source.occlusionTexture.strength, field_ + ".occlusionTexture.strength");
     read_alpha(source, material);
     read_textures(source, material);
     scene_.materials.push_back(material);

@@ -32,10 +32,10 @@ struct Placement {
 };
 
 struct Source {
-  std::vector<glm::vec3> positions;  // world
-  std::vector<glm::vec3> normals;    // world, unit or zero; empty when absent
+  std::vector<glm::vec3> positions;        // world
+  std::vector<glm::vec3> normals;          // world, unit or zero; empty when absent
   std::vector<glm::vec2> uvs, second_uvs;  // the second empty when no texture asks for it
-  std::vector<glm::vec4> colours;           // linear; empty when absent
+  std::vector<glm::vec4> colours;          // linear; empty when absent
 };
 
 std::optional<glm::vec3> unit(const glm::dvec3& v) {

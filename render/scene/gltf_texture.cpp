@@ -67,8 +67,8 @@ void decode(const GltfDocument& document, const std::vector<std::uint8_t>& bytes
                              " pixels; 1 to 16384 each way are allowed");
   }
   if (std::int64_t{width} * height > kMostPixels) {
-    document.fail(field, "is " + std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels; 67108864 in all are allowed");
+    document.fail(
+        field, "is " + std::to_string(width) + " x " + std::to_string(height) + " pixels; 67108864 in all are allowed");
   }
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);

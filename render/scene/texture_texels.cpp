@@ -20,7 +20,9 @@ std::uint32_t format_of(TexelUse use) {
   return use == TexelUse::data ? kData : kColour;
 }
 
-std::uint32_t level_size(std::uint32_t size, std::uint32_t level) { return std::max(size >> level, 1U); }
+std::uint32_t level_size(std::uint32_t size, std::uint32_t level) {
+  return std::max(size >> level, 1U);
+}
 
 std::uint32_t level_count(std::uint32_t width, std::uint32_t height) {
   std::uint32_t levels = 1;

@@ -177,7 +177,7 @@ TEST_F(Materials, PanesMixWithWhatLiesBehindAndDimItsLight) {
     const Seen seen = see(scene, {.width = 256, .height = 256, .half_tangent = 0.5});
     const glm::vec3 panes = red_first ? glm::vec3(0.25F, 0, 0.75F * 0.5F) : glm::vec3(0.5F * 0.25F, 0, 0.5F);
     expect_colour(seen.at({0.25F, 0.25F, -4}), panes + 0.375F, 1e-3F);  // a white square
-    expect_colour(seen.at({-0.25F, 0.25F, -4}), panes, 1e-3F);           // a black one
+    expect_colour(seen.at({-0.25F, 0.25F, -4}), panes, 1e-3F);          // a black one
     const glm::ivec2 p = seen.pixel_of({0.25F, 0.25F, -4});
     // Red takes a quarter, blue then half of the rest: the eye sees most of what lies before the half.
     EXPECT_NEAR(seen.depth(p.x, p.y), red_first ? 3.0F : 2.0F, 0.2F);
@@ -256,7 +256,8 @@ TEST_F(Materials, VertexColoursSecondCoordinatesAndTransforms) {
   support::add_wall(scene, support::add_material(scene, material), 1, 0, 4, 0.9F);
   scene.second_uvs.assign(8, glm::vec2(0.25F, 0.5F));  // red everywhere
   scene.colours.assign(8, glm::vec4(1));
-  for (std::size_t i = 4; i < 8; ++i) scene.colours[i] = {0.5F, i % 4 < 2 ? 0.0F : 1.0F, 1, 1};  // green fades downwards
+  for (std::size_t i = 4; i < 8; ++i)
+    scene.colours[i] = {0.5F, i % 4 < 2 ? 0.0F : 1.0F, 1, 1};  // green fades downwards
   const Seen seen = see(scene, {.width = 256, .height = 256, .half_tangent = 0.5});
   expect_colour(seen.at({-1.4F, 0, -4}), {1, 0, 0}, 2e-3F);
   expect_colour(seen.at({-0.6F, 0, -4}), {1, 0, 0}, 2e-3F);

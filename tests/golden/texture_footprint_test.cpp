@@ -41,12 +41,14 @@ Scene wall_of(Texel&& texel, float repeats, float turn = 0.0F) {
   material.base_colour_texture.index = support::add_texture(scene, 256, 256, texel);
   material.base_colour_texture.linear = glm::mat2(repeats, 0, 0, repeats);
   const glm::vec3 side(std::cos(turn), 0, -std::sin(turn));
-  support::add_square(scene, support::add_material(scene, material),
-                      glm::vec3(0, -kHalf, -kDistance) - kHalf * side, 2.0F * kHalf * side, {0, 2 * kHalf, 0});
+  support::add_square(scene, support::add_material(scene, material), glm::vec3(0, -kHalf, -kDistance) - kHalf * side,
+                      2.0F * kHalf * side, {0, 2 * kHalf, 0});
   return scene;
 }
 
-glm::uvec4 grey(bool white) { return glm::uvec4(glm::uvec3(white ? 255 : 0), 255); }
+glm::uvec4 grey(bool white) {
+  return glm::uvec4(glm::uvec3(white ? 255 : 0), 255);
+}
 
 TEST(TextureFootprint, AFineCheckerAveragesToGrey) {
   const auto checker = [](auto x, auto y) { return grey((x + y) % 2 == 0); };
@@ -68,8 +70,8 @@ TEST(TextureFootprint, AFineCheckerAveragesToGrey) {
 double footprint_texels(const Seen& seen, float repeats) {
   const auto meets = [&](int x) {
     const auto p = support::reference_pixel(
-        seen.pair, seen.setup, support::pixel_direction(seen.setup, x, seen.look.height / 2, seen.look.width,
-                                                        seen.look.height));
+        seen.pair, seen.setup,
+        support::pixel_direction(seen.setup, x, seen.look.height / 2, seen.look.width, seen.look.height));
     return p.start.x + p.direction.x / p.direction.z * (-static_cast<double>(kDistance) - p.start.z);
   };
   const double metres = meets(seen.look.width / 2) - meets(seen.look.width / 2 - 1);
@@ -86,8 +88,8 @@ TEST(TextureFootprint, ALensChangesTheLevelAsItChangesTheBeam) {
   for (const double power : {-8.0, -4.0, 0.0, 4.0, 8.0}) {
     const float repeats = 5.657F;
     const lenses::Spectacles worn = spectacles(power);
-    const Seen seen = see(wall_of(stripes, repeats),
-                          {.width = 128, .height = 128, .spectacles = power == 0.0 ? nullptr : &worn});
+    const Seen seen =
+        see(wall_of(stripes, repeats), {.width = 128, .height = 128, .spectacles = power == 0.0 ? nullptr : &worn});
     float low = 9.0F, high = -9.0F;
     for (int y = 56; y < 72; ++y) {
       for (int x = 32; x < 96; ++x) {

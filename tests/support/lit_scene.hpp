@@ -118,12 +118,13 @@ struct Seen {
   Look look;
 
   [[nodiscard]] glm::vec3 at(int x, int y) const {
-    const auto i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(look.width) + static_cast<std::size_t>(x));
+    const auto i =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(look.width) + static_cast<std::size_t>(x));
     return {view.radiance[i], view.radiance[i + 1], view.radiance[i + 2]};
   }
   [[nodiscard]] float depth(int x, int y) const {
-    return view.wavefront.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(look.width) +
-                                static_cast<std::size_t>(x)];
+    return view.wavefront
+        .depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(look.width) + static_cast<std::size_t>(x)];
   }
   // The pixel in which a point straight ahead of the bare eye lies.
   [[nodiscard]] glm::ivec2 pixel_of(const glm::vec3& p) const {

@@ -300,8 +300,8 @@ TEST(GltfReader, alpha_modes_and_unlit) {
 TEST(GltfReader, vertex_colours) {
   Gltf g = square();
   EXPECT_TRUE(read(g).colours.empty());
-  const int colours = g.accessor(std::vector<std::uint8_t>{255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 51, 51, 51, 0},
-                                 "VEC3", kU8, 4, 4);
+  const int colours =
+      g.accessor(std::vector<std::uint8_t>{255, 0, 0, 0, 0, 255, 0, 0, 0, 0, 255, 0, 51, 51, 51, 0}, "VEC3", kU8, 4, 4);
   g.root["accessors"][static_cast<std::size_t>(colours)]["normalized"] = true;
   primitive(g)["attributes"]["COLOR_0"] = colours;
   const Scene scene = read(g);

@@ -9,6 +9,10 @@
 #include "shaders/dof.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
+#include "shaders/find_edges.hpp"
+#include "shaders/left_out.hpp"
+#include "shaders/rays.hpp"
+#include "shaders/tile.hpp"
 
 namespace render {
 namespace {
@@ -25,6 +29,21 @@ std::vector<Binding> scene_and(std::size_t own) {
   return bindings;
 }
 
+std::vector<Binding> chief_bindings() {
+  std::vector<Binding> bindings = scene_and(3);
+  bindings.push_back(Binding::texel_r32ui);
+  return bindings;
+}
+
+std::vector<Binding> tile_bindings() {
+  return {Binding::texel_rgba32f, Binding::texel_rgba32f,  Binding::texel_rgba32ui,
+          Binding::texel_rgba32f, Binding::storage_buffer, Binding::storage_buffer};
+}
+
+std::vector<Binding> find_edges_bindings() {
+  return {Binding::texel_rgba32ui, Binding::texel_r32ui, Binding::storage_buffer};
+}
+
 struct Recipe {
   const char* name;
   std::span<const std::uint32_t> code;
@@ -35,13 +54,21 @@ struct Recipe {
 Recipe recipe_of(Stage stage) {
   switch (stage) {
     case Stage::chief:
-      return {"trace", shaders::chief, scene_and(3), 3};
+      return {"trace", shaders::chief, chief_bindings(), 5};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(2), 1};
+      return {"edges", shaders::edges, scene_and(2), 2};
     case Stage::samples:
-      return {"samples", shaders::dof, scene_and(3), 1};
+      return {"samples", shaders::dof, scene_and(3), 2};
     case Stage::blur:
       return {"blur", shaders::blur, {Binding::texel_rgba32ui, Binding::storage_buffer}, 0};
+    case Stage::rays:
+      return {"rays", shaders::rays, scene_and(2), 2};
+    case Stage::tile:
+      return {"tile", shaders::tile, tile_bindings(), 1};
+    case Stage::left_out:
+      return {"left_out", shaders::left_out, tile_bindings(), 0};
+    case Stage::find_edges:
+      return {"find_edges", shaders::find_edges, find_edges_bindings(), 0};
     case Stage::encode:
       break;
   }
@@ -52,9 +79,13 @@ Recipe recipe_of(Stage stage) {
 
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
-  std::array<std::uint32_t, 4> key{variant.surface_kinds, variant.wavefront ? 1U : 0U, variant.keep_wavefront ? 1U : 0U,
-                                   static_cast<std::uint32_t>(stage)};
-  for (std::size_t i = recipe.constants; i < 3; ++i) {
+  std::array<std::uint32_t, 6> key{variant.surface_kinds,       variant.shadows ? 1U : 0U,
+                                   variant.wavefront ? 1U : 0U, variant.keep_wavefront ? 1U : 0U,
+                                   variant.tile ? 1U : 0U,      static_cast<std::uint32_t>(stage)};
+  if (stage == Stage::tile) {
+    key[0] = device_.limits().subgroup_size;
+  }
+  for (std::size_t i = recipe.constants; i < 5; ++i) {
     key[i] = 0;
   }
   const auto found = kernels_.find(key);

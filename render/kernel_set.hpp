@@ -10,13 +10,15 @@
 
 namespace render {
 
-enum class Stage : std::uint32_t { chief, edges, samples, blur, encode };
+enum class Stage : std::uint32_t { rays, tile, left_out, chief, find_edges, edges, samples, blur, encode };
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {
   std::uint32_t surface_kinds = 0xffffffffU;  // bit k: some lens has a surface of kind k
+  bool shadows = true;                        // false: lights reach everywhere
   bool wavefront = true;                      // false: radiance only
   bool keep_wavefront = false;
+  bool tile = false;  // chief rays' hits were found by Stage::tile
 };
 
 class KernelSet {
@@ -27,7 +29,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 4>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 6>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

@@ -52,7 +52,7 @@ void add_times(std::vector<vk::StageTime>& sum, const std::vector<vk::StageTime>
 class FrameJob {
  public:
   FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
-           const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config)
+           const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config, bool tile)
       : device_(device),
         scene_(scene),
         kernels_(kernels),
@@ -64,7 +64,8 @@ class FrameJob {
     for (const ViewSetup& view : views) {
       worn.push_back(lenses.lens[view.lens]);
     }
-    variant_ = {surface_kinds(worn), config.mode != Mode::pinhole || config.keep_wavefront, keeps_wavefront(config)};
+    variant_ = {surface_kinds(worn), config.shadows, config.mode != Mode::pinhole || config.keep_wavefront,
+                keeps_wavefront(config), tile};
     data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
     data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
     // A pinhole picture is the defocused one with nothing left to blur.
@@ -78,13 +79,22 @@ class FrameJob {
   }
 
   void record_trace(vk::Commands& commands) {
-    trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
+    if (variant_.tile) {
+      find_hits_by_tile(commands);
+    }
+    trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.tile_hits});
     commands.timestamp("trace");
   }
 
   void record_edges_and_blur(vk::Commands& commands) {
-    commands.barrier();
-    trace_with(commands, Stage::edges, {&out_.pixels, &out_.keys});
+    for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+      commands.barrier();
+      commands.fill_zero(out_.list);
+      commands.barrier();
+      dispatch_view(commands, kernels_.get(Stage::find_edges), {&out_.pixels, &out_.keys, &out_.list});
+      commands.barrier();
+      dispatch_list(commands, kernels_.get(Stage::edges, variant_), with_scene({&out_.pixels, &out_.list}));
+    }
     commands.timestamp("edges");
     commands.barrier();
     dispatch(commands, kernels_.get(Stage::blur), {&out_.pixels, &out_.radiance});
@@ -132,18 +142,49 @@ class FrameJob {
     return data;
   }
 
-  void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const std::vector<const vk::Buffer*>& buffers) {
+  using Buffers = std::vector<const vk::Buffer*>;
+
+  // The view of data_.view.
+  void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
     const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; };
-    commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y),
-                      static_cast<std::uint32_t>(data_.size.z));
+    commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
   }
 
-  void trace_with(vk::Commands& commands, Stage stage, const std::vector<const vk::Buffer*>& own) {
-    std::vector<const vk::Buffer*> all{
-        &table_, &scene_.bvh_nodes,   &scene_.bvh_triangles, &scene_.shading_triangles, &scene_.texels,
-        &views_, &scene_.environment, &scene_.lights,        &scene_.materials,         &scene_.textures};
+  void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+    for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+      dispatch_view(commands, kernel, buffers);
+    }
+  }
+
+  void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+    commands.dispatch(kernel, buffers, vk::bytes_of(data_), gpu::kListWorkgroups);
+  }
+
+  [[nodiscard]] Buffers with_scene(const Buffers& own) const {
+    Buffers all{&table_, &scene_.bvh_nodes,   &scene_.bvh_triangles, &scene_.shading_triangles, &scene_.texels,
+                &views_, &scene_.environment, &scene_.lights,        &scene_.materials,         &scene_.textures};
     all.insert(all.end(), own.begin(), own.end());
-    dispatch(commands, kernels_.get(stage, variant_), all);
+    return all;
+  }
+
+  void trace_with(vk::Commands& commands, Stage stage, const Buffers& own) {
+    dispatch(commands, kernels_.get(stage, variant_), with_scene(own));
+  }
+
+  void find_hits_by_tile(vk::Commands& commands) {
+    commands.fill_zero(out_.list);
+    trace_with(commands, Stage::rays, {&out_.ray_origins, &out_.ray_directions});
+    commands.timestamp("rays");
+    commands.barrier();
+    dispatch(commands, kernels_.get(Stage::tile),
+             {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.tile_hits,
+              &out_.list});
+    commands.barrier();
+    dispatch_list(commands, kernels_.get(Stage::left_out),
+                  {&out_.ray_origins, &out_.ray_directions, &scene_.bvh_nodes, &scene_.bvh_triangles, &out_.tile_hits,
+                   &out_.list});
+    commands.timestamp("tile");
+    commands.barrier();
   }
 
   vk::Device& device_;
@@ -159,12 +200,14 @@ class FrameJob {
 }  // namespace
 
 struct Renderer::State {
-  State(vk::Device& d, const Scene& scene) : device(d), buffers(d, scene), kernels(d) {}
+  State(vk::Device& d, const Scene& scene, const RendererConfig& c)
+      : device(d), config(c), buffers(d, scene), kernels(d) {}
 
-  FrameBuffers& frame_buffers(std::size_t count, bool wavefront, bool sums) {
-    if (!frame || frame->count != count || (wavefront && !frame->has_wavefront) || (sums && !frame->has_sums)) {
+  FrameBuffers& frame_buffers(std::size_t count, bool wavefront, bool sums, bool tile) {
+    if (!frame || frame->count != count || (wavefront && !frame->has_wavefront) || (sums && !frame->has_sums) ||
+        (tile && !frame->has_tile)) {
       frame.reset();  // the old one goes first, so that both never stand side by side
-      frame = std::make_unique<FrameBuffers>(device, count, wavefront, sums);
+      frame = std::make_unique<FrameBuffers>(device, count, wavefront, sums, tile);
     }
     return *frame;
   }
@@ -172,9 +215,10 @@ struct Renderer::State {
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
   RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
+    const bool tile = this->config.traversal != Traversal::per_ray;
     FrameBuffers& out =
-        frame_buffers(pixels_of(config) * views.size(), keeps_wavefront(config), config.mode == Mode::dof);
-    FrameJob job(device, buffers, kernels, out, lenses, views, config);
+        frame_buffers(pixels_of(config) * views.size(), keeps_wavefront(config), config.mode == Mode::dof, tile);
+    FrameJob job(device, buffers, kernels, out, lenses, views, config, tile);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
@@ -206,12 +250,14 @@ struct Renderer::State {
   }
 
   vk::Device& device;
+  RendererConfig config;
   SceneBuffers buffers;
   KernelSet kernels;
   std::unique_ptr<FrameBuffers> frame;
 };
 
-Renderer::Renderer(vk::Device& device, const Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
+Renderer::Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config)
+    : state_(std::make_unique<State>(device, scene, config)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 

@@ -37,6 +37,7 @@ struct FrameConfig {
   std::uint32_t seed = 0;
   int colour_map = 0;             // 0: the paper's hue, 1: perceptual
   std::optional<MapRange> range;  // absent: from the picture
+  bool shadows = true;            // false: lights shine through everything
   bool keep_radiance = false;     // also return linear radiance
   bool keep_wavefront = false;    // also return the wavefront of every pixel
 };
@@ -62,9 +63,20 @@ struct RenderedFrame {
 
 using Progress = std::function<void(int done, int of)>;
 
+// How chief rays are traced through the scene; the picture is the same.
+enum class Traversal {
+  automatic,  // what is faster on this device
+  per_ray,    // each ray by itself through the 4-wide tree
+  tile,       // 8 x 8 rays together through the 8-wide tree; where the device cannot, per ray
+};
+
+struct RendererConfig {
+  Traversal traversal = Traversal::automatic;
+};
+
 class Renderer {
  public:
-  Renderer(vk::Device& device, const Scene& scene);
+  Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) = delete;

@@ -63,12 +63,14 @@ std::vector<gpu::EnvironmentData> environment_data(const Scene& scene) {
 
 }  // namespace
 
-SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene) : SceneBuffers(device, scene, build_bvh4(scene)) {}
+SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene)
+    : SceneBuffers(device, scene, build_scene_bvh(scene)) {}
 
-SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene, const Bvh4& bvh)
-    : bvh_nodes(filled_buffer(device, bvh.nodes)),
-      bvh_triangles(filled_buffer(device, bvh.triangles)),
-      shading_triangles(filled_buffer(device, render::shading_triangles(scene, bvh))),
+SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene, const SceneBvh& bvh)
+    : bvh_nodes(filled_buffer(device, bvh.four.nodes)),
+      wide_nodes(filled_buffer(device, bvh.eight.nodes)),
+      bvh_triangles(filled_buffer(device, bvh.four.triangles)),
+      shading_triangles(filled_buffer(device, render::shading_triangles(scene, bvh.four))),
       texels(filled_buffer(device, pack_texels(scene))),
       environment(filled_buffer(device, environment_data(scene))),
       lights(filled_buffer(device, light_data(scene))),

@@ -15,11 +15,11 @@ struct SceneBuffers {
   // Uploads once; the scene may go. A scene beyond the device's buffers throws vk::DeviceError with the numbers.
   SceneBuffers(vk::Device& device, const Scene& scene);
 
-  vk::Buffer bvh_nodes, bvh_triangles, shading_triangles, texels, environment, lights, materials, textures;
+  vk::Buffer bvh_nodes, wide_nodes, bvh_triangles, shading_triangles, texels, environment, lights, materials, textures;
   std::size_t triangle_count = 0;
 
  private:
-  SceneBuffers(vk::Device& device, const Scene& scene, const Bvh4& bvh);
+  SceneBuffers(vk::Device& device, const Scene& scene, const SceneBvh& bvh);
 };
 
 // Uploads values; an empty list becomes one zeroed element, because a shader's buffer may not be empty.

@@ -42,7 +42,14 @@ bool shows_rim(int status) {
   return status == kStatusInverted || status == kStatusTirFront || status == kStatusMissFront || status == kStatusSingular;
 }
 
-PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
+// The ray that goes on into the scene, world; direction of unit length.
+struct SceneRay {
+  vec3 origin;
+  vec3 direction;
+};
+
+// The line of sight up to the scene: everything but what it meets there. A rim's is complete.
+PixelRay aim_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
   PixelRay ray;
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
   ray.line = trace_sight_line(view.lens, view.eye, turn, direction, pupil_offset, momentum);
@@ -51,20 +58,23 @@ PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 mome
   ray.material = 0xffffu;
   ray.radiance = kRimRadiance;
   ray.depth = -1.0;
-  if (shows_rim(ray.status)) {
-    return ray;
-  }
-  vec3 origin = world_point(view, ray.line.start);
-  vec3 towards = normalize(world_direction(view, ray.line.direction_object));
-  Hit hit;
-  if (trace_closest(origin, towards, 1e30, hit)) {
-    Surface surface = shade_hit(hit, origin, towards);
+  return ray;
+}
+
+SceneRay scene_ray(ViewData view, PixelRay ray) {
+  return SceneRay(world_point(view, ray.line.start), normalize(world_direction(view, ray.line.direction_object)));
+}
+
+// Completes a ray that is no rim with what it met.
+void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool found, Hit hit) {
+  if (found) {
+    Surface surface = shade_hit(hit, beyond.origin, beyond.direction);
     ray.radiance = surface.radiance;
     ray.normal = surface.normal;
     ray.material = hit.material;
     ray.depth = hit.t;
   } else {
-    ray.radiance = sky_radiance(towards);
+    ray.radiance = sky_radiance(beyond.direction);
     ray.depth = 0.0;
   }
   if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
@@ -72,6 +82,16 @@ PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 mome
   }
   // Half floats end at 65504; nothing may leave as an infinity.
   ray.radiance = clamp(ray.radiance, vec3(0.0), vec3(65000.0));
+}
+
+PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
+  PixelRay ray = aim_pixel(view, direction, pupil_offset, momentum);
+  if (!shows_rim(ray.status)) {
+    SceneRay beyond = scene_ray(view, ray);
+    Hit hit;
+    bool found = trace_closest(beyond.origin, beyond.direction, 1e30, hit);
+    see(view, ray, beyond, found, hit);
+  }
   return ray;
 }
 

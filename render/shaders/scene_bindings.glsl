@@ -6,6 +6,7 @@ layout(binding = 3) uniform samplerBuffer shading_triangles;
 layout(binding = 4) uniform usamplerBuffer texels;  // RGB9E5, linear
 
 layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a surface of kind k
+layout(constant_id = 1) const uint kShadows = 1u;               // 0: lights reach everywhere
 #define USED_KINDS kSurfaceKinds
 
 #include "lenses/gpu/optics.h"

@@ -10,18 +10,13 @@ vec3 rgb9e5(uint packed) {
   return vec3(float(packed & 511u), float((packed >> 9) & 511u), float((packed >> 18) & 511u)) * scale;
 }
 
-int wrapped(int i, int n, int mode) {
-  if (mode == 1) {
-    return clamp(i, 0, n - 1);
-  }
-  if (mode == 2) {
-    int period = 2 * n;
-    int j = i % period;
-    j = j < 0 ? j + period : j;
-    return j < n ? j : period - 1 - j;
-  }
-  int j = i % n;
-  return j < 0 ? j + n : j;
+// i: a whole number below 1e7, so that floats are exact but for the quotient, whose rounding the clamp catches. Integer
+// division has no vector form on CPUs.
+int wrapped(float i, float n, int mode) {
+  float period = mode == 2 ? 2.0 * n : n;
+  float j = i - period * floor(i / period);
+  j = mode == 2 && j >= n ? period - 1.0 - j : j;
+  return int(clamp(mode == 1 ? i : j, 0.0, n - 1.0));
 }
 
 vec3 sample_texture(int index, vec2 uv) {
@@ -29,11 +24,12 @@ vec3 sample_texture(int index, vec2 uv) {
   vec2 p = uv * vec2(float(t.y), float(t.z)) - 0.5;
   vec2 corner = floor(p);
   vec2 w = p - corner;
-  ivec2 low = ivec2(clamp(corner, vec2(-1e8), vec2(1e8)));
-  int x0 = wrapped(low.x, t.y, t.w & 255);
-  int x1 = wrapped(low.x + 1, t.y, t.w & 255);
-  int y0 = wrapped(low.y, t.z, t.w >> 8);
-  int y1 = wrapped(low.y + 1, t.z, t.w >> 8);
+  vec2 low = clamp(corner, vec2(-1e7), vec2(1e7));
+  vec2 size = vec2(t.yz);
+  int x0 = wrapped(low.x, size.x, t.w & 255);
+  int x1 = wrapped(low.x + 1.0, size.x, t.w & 255);
+  int y0 = wrapped(low.y, size.y, t.w >> 8);
+  int y1 = wrapped(low.y + 1.0, size.y, t.w >> 8);
   vec3 top = mix(rgb9e5(texelFetch(texels, t.x + y0 * t.y + x0).x), rgb9e5(texelFetch(texels, t.x + y0 * t.y + x1).x), w.x);
   vec3 bottom =
       mix(rgb9e5(texelFetch(texels, t.x + y1 * t.y + x0).x), rgb9e5(texelFetch(texels, t.x + y1 * t.y + x1).x), w.x);
@@ -102,7 +98,7 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction) {
     float reach;
     vec3 arriving = light_at(lights[i], lifted, towards, reach) * max(dot(normal, towards), 0.0);
     if (max(max(arriving.r, arriving.g), arriving.b) > 0.0 && dot(face, towards) > 0.0 &&
-        !trace_any(lifted, towards, reach * 0.9999)) {
+        (kShadows == 0u || !trace_any(lifted, towards, reach * 0.9999))) {
       light += arriving * (1.0 / 3.14159265358979);
     }
   }

@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The rays that the tile traversal left out, one by one.
+#include "render/shaders/frame.h"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform samplerBuffer ray_origins;
+layout(binding = 1) uniform samplerBuffer ray_directions;
+layout(binding = 2) uniform usamplerBuffer bvh_nodes;
+layout(binding = 3) uniform samplerBuffer bvh_triangles;
+layout(std430, binding = 4) writeonly buffer Hits { uint hits[]; };
+layout(std430, binding = 5) readonly buffer LeftOut { uint left_out[]; };
+layout(push_constant) uniform Frame { FrameData frame; };
+
+#include "render/shaders/traverse_bvh4.glsl"
+
+void main() {
+  uint count = left_out[0];
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) {
+    int at = int(left_out[1u + i]);
+    Hit hit;
+    bool met = trace_closest(texelFetch(ray_origins, at).xyz, texelFetch(ray_directions, at).xyz, kFarthest, hit);
+    hits[at] = met ? hit.triangle : kTileMiss;
+  }
+}

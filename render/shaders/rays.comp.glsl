@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The ray of every pixel's centre beyond the lens, for a traversal that looks at many at once.
+#include "render/shaders/scene_bindings.glsl"
+#include "render/shaders/shading.glsl"
+#include "render/shaders/pixel.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 10) writeonly buffer Origins { vec4 origins[]; };        // m, world
+layout(std430, binding = 11) writeonly buffer Directions { vec4 directions[]; };  // unit; w: 0 where a rim ends the ray
+
+void main() {
+  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  int eye = frame.view.x;
+  if (p.x >= frame.size.x || p.y >= frame.size.y) {
+    return;
+  }
+  ViewData view = views[eye];
+  PixelRay ray = aim_pixel(view, pixel_direction(view, vec2(p) + 0.5), vec2(0.0), vec2(0.0));
+  SceneRay beyond = scene_ray(view, ray);
+  bool goes_on = !shows_rim(ray.status) && is_sound(beyond.origin, beyond.direction);
+  int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
+  origins[at] = vec4(beyond.origin, 0.0);
+  directions[at] = vec4(beyond.direction, goes_on ? 1.0 : 0.0);
+}

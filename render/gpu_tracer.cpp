@@ -40,7 +40,7 @@ std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
       continue;
     }
     kinds |= 1U << static_cast<unsigned>(lens.back.kind.x);
-    kinds |= 1U << static_cast<unsigned>(lens.front.kind.x);
+    kinds |= 1U << static_cast<unsigned>(16 + lens.front.kind.x);
   }
   return kinds;
 }

@@ -77,6 +77,11 @@ Recipe recipe_of(Stage stage) {
 
 }  // namespace
 
+bool can_trace_tiles(const vk::DeviceLimits& limits) {
+  const std::uint32_t size = limits.subgroup_size;
+  return limits.has_subgroup_reductions && (size == 8 || size == 16 || size == 32 || size == 64);
+}
+
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
   std::array<std::uint32_t, 6> key{variant.surface_kinds,       variant.shadows ? 1U : 0U,

@@ -14,12 +14,15 @@ enum class Stage : std::uint32_t { rays, tile, left_out, chief, find_edges, edge
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {
-  std::uint32_t surface_kinds = 0xffffffffU;  // bit k: some lens has a surface of kind k
+  std::uint32_t surface_kinds = 0xffffffffU;  // see surface_kinds() in gpu_tracer.hpp
   bool shadows = true;                        // false: lights reach everywhere
   bool wavefront = true;                      // false: radiance only
   bool keep_wavefront = false;
   bool tile = false;  // chief rays' hits were found by Stage::tile
 };
+
+// Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
+[[nodiscard]] bool can_trace_tiles(const vk::DeviceLimits& limits);
 
 class KernelSet {
  public:

@@ -1,7 +1,9 @@
 #include "render/renderer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "render/frame_buffers.hpp"
 #include "render/frame_types.hpp"
@@ -17,6 +19,7 @@ constexpr std::uint32_t kTile = 8;          // local size of the frame's kernels
 constexpr int kSamplesASubmission = 8;      // dof
 constexpr int kFewestSamplesToStopOn = 16;  // below, the error estimate itself is too rough
 constexpr float kLargestBlur = 512.0F;      // px; beyond it nothing is left to see
+constexpr int kMeasuredSide = 256;          // pixels; of the pictures that choose a traversal
 constexpr float kNoBlurDrawn = 1e9F;        // px, as a threshold
 
 std::size_t pixels_of(const FrameConfig& config) {
@@ -212,10 +215,62 @@ struct Renderer::State {
     return *frame;
   }
 
+  // Least of a few runs of the trace stage alone, ms.
+  double measure(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& frame_config,
+                 bool tile) {
+    FrameBuffers out(device, pixels_of(frame_config) * views.size(), keeps_wavefront(frame_config), false, tile);
+    FrameJob job(device, buffers, kernels, out, lenses, views, frame_config, tile);
+    vk::Commands commands(device);
+    job.record_trace(commands);
+    device.run(commands);  // compiles
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      device.run(commands);
+      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+      least = std::min(least, took.count());
+    }
+    return least;
+  }
+
+  Traversal faster(RayKind kind, const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                   const FrameConfig& frame_config) {
+    const auto known = chosen.find(kind);
+    if (known != chosen.end()) {
+      return known->second;
+    }
+    const TraversalRecord record(config.traversal_file, device.name());
+    std::optional<Traversal> choice = record.find(kind);
+    if (!choice) {
+      FrameConfig small = frame_config;
+      small.width = std::min(small.width, kMeasuredSide);
+      small.height = std::min(small.height, kMeasuredSide);
+      choice = measure(lenses, views, small, true) < measure(lenses, views, small, false) ? Traversal::tile
+                                                                                          : Traversal::per_ray;
+      record.keep(kind, *choice);
+    }
+    chosen[kind] = *choice;
+    return *choice;
+  }
+
+  bool by_tile(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& frame_config) {
+    const std::size_t count = pixels_of(frame_config) * views.size();
+    if (config.traversal == Traversal::per_ray || !can_trace_tiles(device.limits()) ||
+        count > device.limits().max_texel_elements) {
+      return false;
+    }
+    if (config.traversal == Traversal::tile) {
+      return true;
+    }
+    const bool bare =
+        std::ranges::all_of(views, [&](const ViewSetup& view) { return lenses.lens[view.lens].glass.w == 0.0; });
+    return faster(bare ? RayKind::bare : RayKind::refracted, lenses, views, frame_config) == Traversal::tile;
+  }
+
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
   RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
-    const bool tile = this->config.traversal != Traversal::per_ray;
+    const bool tile = by_tile(lenses, views, config);
     FrameBuffers& out =
         frame_buffers(pixels_of(config) * views.size(), keeps_wavefront(config), config.mode == Mode::dof, tile);
     FrameJob job(device, buffers, kernels, out, lenses, views, config, tile);
@@ -251,6 +306,7 @@ struct Renderer::State {
 
   vk::Device& device;
   RendererConfig config;
+  std::map<RayKind, Traversal> chosen;
   SceneBuffers buffers;
   KernelSet kernels;
   std::unique_ptr<FrameBuffers> frame;

@@ -5,6 +5,7 @@
 //   encode  linear radiance to sRGB, or a wavefront map to colours
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 
 #include "render/image/image.hpp"
 #include "render/scene_buffers.hpp"
+#include "render/traversal.hpp"
 #include "render/view_setup.hpp"
 #include "render/vk/device.hpp"
 
@@ -63,15 +65,9 @@ struct RenderedFrame {
 
 using Progress = std::function<void(int done, int of)>;
 
-// How chief rays are traced through the scene; the picture is the same.
-enum class Traversal {
-  automatic,  // what is faster on this device
-  per_ray,    // each ray by itself through the 4-wide tree
-  tile,       // 8 x 8 rays together through the 8-wide tree; where the device cannot, per ray
-};
-
 struct RendererConfig {
   Traversal traversal = Traversal::automatic;
+  std::filesystem::path traversal_file = {};  // where automatic keeps what it measured; empty: nowhere
 };
 
 class Renderer {

@@ -5,9 +5,10 @@ layout(binding = 2) uniform samplerBuffer bvh_triangles;
 layout(binding = 3) uniform samplerBuffer shading_triangles;
 layout(binding = 4) uniform usamplerBuffer texels;  // RGB9E5, linear
 
-layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a surface of kind k
+layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a back of kind k; bit 16 + k: a front
 layout(constant_id = 1) const uint kShadows = 1u;               // 0: lights reach everywhere
-#define USED_KINDS kSurfaceKinds
+#define BACK_KINDS (kSurfaceKinds & 0xffffu)
+#define FRONT_KINDS (kSurfaceKinds >> 16)
 
 #include "lenses/gpu/optics.h"
 #include "render/shaders/frame.h"

@@ -23,8 +23,8 @@ using vk::Binding;
 std::vector<Binding> scene_and(std::size_t own) {
   std::vector<Binding> bindings{Binding::texel_rgba32f,  Binding::texel_rgba32ui, Binding::texel_rgba32f,
                                 Binding::texel_rgba32f,  Binding::texel_r32ui,    Binding::uniform_buffer,
-                                Binding::uniform_buffer, Binding::storage_buffer, Binding::storage_buffer,
-                                Binding::storage_buffer};
+                                Binding::uniform_buffer, Binding::texel_rgba32ui, Binding::texel_rgba32ui,
+                                Binding::texel_rgba32ui};
   bindings.insert(bindings.end(), own, Binding::storage_buffer);
   return bindings;
 }

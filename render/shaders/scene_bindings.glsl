@@ -18,9 +18,23 @@ layout(constant_id = 1) const uint kShadows = 1u;               // 0: lights rea
 // vec4 and ivec4 lie the same in std140 and std430.
 layout(std140, binding = 5) uniform Views { ViewData views[kMostViews]; };
 layout(std140, binding = 6) uniform Environment { EnvironmentData environment; };
-layout(std430, binding = 7) readonly buffer Lights { LightData lights[]; };
-layout(std430, binding = 8) readonly buffer Materials { MaterialData materials[]; };
-layout(std430, binding = 9) readonly buffer Textures { TextureData textures[]; };
+// Lists of structures, four words a texel: a software device loads a storage buffer word by word, lane by lane.
+layout(binding = 7) uniform usamplerBuffer lights;
+layout(binding = 8) uniform usamplerBuffer materials;
+layout(binding = 9) uniform usamplerBuffer textures;
 layout(push_constant) uniform Frame { FrameData frame; };
+
+LightData light_data(int i) {
+  return LightData(uintBitsToFloat(texelFetch(lights, 4 * i)), uintBitsToFloat(texelFetch(lights, 4 * i + 1)),
+                   uintBitsToFloat(texelFetch(lights, 4 * i + 2)), uintBitsToFloat(texelFetch(lights, 4 * i + 3)));
+}
+
+MaterialData material_data(uint i) {
+  int at = 3 * int(i);
+  return MaterialData(uintBitsToFloat(texelFetch(materials, at)), uintBitsToFloat(texelFetch(materials, at + 1)),
+                      ivec4(texelFetch(materials, at + 2)));
+}
+
+TextureData texture_data(int i) { return TextureData(ivec4(texelFetch(textures, i))); }
 
 #include "render/shaders/traverse_bvh4.glsl"

@@ -20,7 +20,7 @@ int wrapped(float i, float n, int mode) {
 }
 
 vec3 sample_texture(int index, vec2 uv) {
-  ivec4 t = textures[index].size;
+  ivec4 t = texture_data(index).size;
   vec2 p = uv * vec2(float(t.y), float(t.z)) - 0.5;
   vec2 corner = floor(p);
   vec2 w = p - corner;
@@ -67,7 +67,7 @@ struct Surface {
 };
 
 Surface shade_hit(Hit hit, vec3 origin, vec3 direction) {
-  MaterialData material = materials[hit.material];
+  MaterialData material = material_data(hit.material);
   int at = int(hit.triangle * kBvhShadingTexels);
   vec4 a = texelFetch(shading_triangles, at);
   vec4 b = texelFetch(shading_triangles, at + 1);
@@ -96,7 +96,7 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction) {
   for (int i = 0; i < environment.counts.x; ++i) {
     vec3 towards;
     float reach;
-    vec3 arriving = light_at(lights[i], lifted, towards, reach) * max(dot(normal, towards), 0.0);
+    vec3 arriving = light_at(light_data(i), lifted, towards, reach) * max(dot(normal, towards), 0.0);
     if (max(max(arriving.r, arriving.g), arriving.b) > 0.0 && dot(face, towards) > 0.0 &&
         (kShadows == 0u || !trace_any(lifted, towards, reach * 0.9999))) {
       light += arriving * (1.0 / 3.14159265358979);

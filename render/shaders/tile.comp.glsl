@@ -43,16 +43,16 @@ shared uvec2 stack[kStackSize];  // reference, bits of the entry
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
 
+// On a software device a shuffle costs less than a broadcast, and eight of them less than a reduction.
 #define OF_LANE(x, j) subgroupShuffle(x, j)
 
-// Broadcasts of eight known lanes are a few instructions on a software device where a reduction is a loop.
 float largest(float x) {
   if (kLanes != 8u) {
     return subgroupMax(x);
   }
-  float m = subgroupBroadcast(x, 0u);
+  float m = OF_LANE(x, 0u);
   [[unroll]] for (uint j = 1u; j < 8u; ++j) {
-    m = most(m, subgroupBroadcast(x, j));
+    m = most(m, OF_LANE(x, j));
   }
   return m;
 }
@@ -62,9 +62,9 @@ uint lanes_with(bool b) {
     return subgroupBallot(b).x;
   }
   uint bit = b ? 1u << gl_SubgroupInvocationID : 0u;
-  uint m = subgroupBroadcast(bit, 0u);
+  uint m = OF_LANE(bit, 0u);
   [[unroll]] for (uint j = 1u; j < 8u; ++j) {
-    m |= subgroupBroadcast(bit, j);
+    m |= OF_LANE(bit, j);
   }
   return m;
 }
@@ -189,7 +189,7 @@ void main() {
         int place = 0;
         int count = 0;
         [[unroll]] for (uint j = 0u; j < kBvhWide; ++j) {
-          float other = subgroupBroadcast(key, j);
+          float other = OF_LANE(key, j);
           place += other > key || (other == key && j < lane) ? 1 : 0;
           count += other >= 0.0 ? 1 : 0;
         }

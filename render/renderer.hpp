@@ -1,4 +1,5 @@
 // Renders the views of one or two eyes on the device, both in one submission. The stages, each one kernel:
+//   rays, tile   with Traversal::tile: the chief rays beyond the lens, then what each of a tile's rays meets
 //   trace   one chief ray a pixel: pupil, back, front, scene; vergence, accommodation, residual, blur ellipse
 //   edges   four rays more where a picture has an edge
 //   blur    approximate defocus (mode adof)          or   samples   distributed rays (mode dof)

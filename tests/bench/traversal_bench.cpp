@@ -1,5 +1,7 @@
 // Milliseconds a stage of each traversal against Embree's Intersect16 on the same rays in the same run:
 //   traversal_bench [SIZE [ROUNDS]]
+// VERGENCE_BENCH_SHADOWS: with shadow rays; VERGENCE_BENCH_TRACE: no edges and no blur; VERGENCE_BENCH_CLUTTER_ONLY:
+// without the reading room.
 // Medians (least in brackets) of interleaved rounds. One view of the right eye; a row a scene, lens and traversal.
 #include <cstdio>
 #include <cstdlib>
@@ -33,12 +35,6 @@ std::vector<support::WorldRay> rays_of(const support::WornPair& pair, const rend
   }
   return rays;
 }
-
-struct Job {
-  const char* name;
-  render::Traversal traversal;
-  render::Mode mode;
-};
 
 void bench(render::vk::Device& device, const char* scene_name, const render::Scene& scene, int size, int rounds) {
   const support::EmbreePackets embree(scene);

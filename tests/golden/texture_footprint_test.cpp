@@ -88,8 +88,8 @@ TEST(TextureFootprint, ALensChangesTheLevelAsItChangesTheBeam) {
   for (const double power : {-8.0, -4.0, 0.0, 4.0, 8.0}) {
     const float repeats = 5.657F;
     const lenses::Spectacles worn = spectacles(power);
-    const Seen seen =
-        see(wall_of(stripes, repeats), {.width = 128, .height = 128, .spectacles = power == 0.0 ? nullptr : &worn});
+    const Seen seen = see(wall_of(stripes, repeats),
+                          {.width = 128, .height = 128, .spectacles = power == 0.0 ? nullptr : &worn, .bare = true});
     float low = 9.0F, high = -9.0F;
     for (int y = 56; y < 72; ++y) {
       for (int x = 32; x < 96; ++x) {

@@ -109,6 +109,7 @@ struct Look {
   double half_tangent = 0.25;  // of the half field of view, both ways
   render::Mode mode = render::Mode::pinhole;
   const lenses::Spectacles* spectacles = nullptr;
+  bool bare = false;  // one ray a pixel, whatever the edges
 };
 
 struct Seen {
@@ -149,6 +150,7 @@ inline Seen look(render::Renderer& renderer, const Look& look) {
   config.width = look.width;
   config.height = look.height;
   config.mode = look.mode;
+  config.bare = look.bare;
   config.keep_radiance = true;
   config.keep_wavefront = true;
   seen.view = std::move(renderer.render(seen.pair.model, {seen.setup}, config).views.at(0));

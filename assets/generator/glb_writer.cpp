@@ -102,9 +102,10 @@ class Writer {
   }
 
   void add_material(const Material& material) {
-    Json pbr{{"baseColorFactor", {material.base_colour.r, material.base_colour.g, material.base_colour.b, material.opacity}},
-             {"metallicFactor", material.metallic},
-             {"roughnessFactor", material.roughness}};
+    Json pbr{
+        {"baseColorFactor", {material.base_colour.r, material.base_colour.g, material.base_colour.b, material.opacity}},
+        {"metallicFactor", material.metallic},
+        {"roughnessFactor", material.roughness}};
     if (material.picture) pbr["baseColorTexture"] = {{"index", *material.picture}};
     Json json{{"name", material.name}, {"pbrMetallicRoughness", std::move(pbr)}};
     const double brightest = std::max({material.emission.r, material.emission.g, material.emission.b});

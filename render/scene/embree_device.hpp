@@ -1,5 +1,5 @@
-// Owners of Embree's handles, its errors as exceptions, and the one call that differs between Embree 3 (Debian 12) and
-// 4 (Debian 13).
+// Owners of Embree's handles, its errors as exceptions, and the calls that differ between Embree 3 (Debian 12) and 4
+// (Debian 13).
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -49,6 +49,21 @@ inline void intersect_one(RTCScene scene, RTCRayHit& ray) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &ray);
+#endif
+}
+
+// Sixteen rays that run side by side; valid: -1 for each that takes part.
+inline void intersect_sixteen(const int* valid, RTCScene scene, RTCRayHit16& rays) {
+#if RTC_VERSION_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &context, &rays);
 #endif
 }
 

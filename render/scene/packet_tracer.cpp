@@ -31,10 +31,7 @@ std::size_t trace_packet(RTCScene scene, std::span<const SceneRay> rays) {
     packet.ray.mask[i] = 0xFFFFFFFFU;
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid.data(), scene, &context, &packet);
+  intersect_sixteen(valid.data(), scene, packet);
   std::size_t hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) hits += packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
   return hits;

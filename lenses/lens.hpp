@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "lenses/prescription.hpp"
 #include "tracking/stereo_view.hpp"
 
 namespace lenses {
@@ -87,6 +88,7 @@ struct Lens {
   ReferencePoints reference_points;
   std::vector<glm::dvec2> outline;  // m, empty: round
   AttachedTo attached_to = AttachedTo::head;
+  std::optional<Order> order;  // what the lens was made for
   bool operator==(const Lens&) const = default;
 };
 

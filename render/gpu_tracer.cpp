@@ -26,10 +26,13 @@ std::vector<To> rounded(const std::vector<From>& values) {
 }  // namespace
 
 std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
-  std::uint32_t kinds = 1U;  // a plane costs nothing and is what an empty slot holds
+  std::uint32_t kinds = 0U;
   for (const auto& lens : lenses) {
+    if (lens.glass.w == 0.0) {
+      continue;
+    }
     kinds |= 1U << static_cast<unsigned>(lens.back.kind.x);
-    kinds |= 1U << static_cast<unsigned>(lens.front.kind.x);
+    kinds |= 1U << static_cast<unsigned>(16 + lens.front.kind.x);
   }
   return kinds;
 }

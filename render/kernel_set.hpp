@@ -14,7 +14,7 @@ enum class Stage : std::uint32_t { chief, edges, samples, blur, encode };
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {
-  std::uint32_t surface_kinds = 0xffffffffU;   // bit k: some lens has a surface of kind k
+  std::uint32_t surface_kinds = 0xffffffffU;   // surface_kinds() of gpu_tracer.hpp
   std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;

@@ -36,7 +36,7 @@ VG_FUNCTION real sphere_crossing(real c, vec3 o, vec3 d, VG_INOUT(bool) sheet) {
   return t;
 }
 
-VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
+VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
   SurfaceHit hit;
   hit.found = false;
   hit.t = real(0);
@@ -67,7 +67,7 @@ VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, 
   for (int i = 0; i <= kBracketSamples; ++i) {
     real t = t0 + (t1 - t0) * real(i) / real(kBracketSamples);
     vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
-    SurfacePoint point = surface_point(TABLE s, q);
+    SurfacePoint point = surface_point(TABLE KINDS(kinds) s, q);
     real f = o.z + t * d.z - point.z;
     if (!point.inside) {
       above = false;
@@ -86,7 +86,7 @@ VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, 
   real t = real(0.5) * (low + high);
   for (int i = 0; i < kBisectionSteps; ++i) {
     vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
-    hit.point = surface_point(TABLE s, q);
+    hit.point = surface_point(TABLE KINDS(kinds) s, q);
     real f = o.z + t * d.z - hit.point.z;
     if (f > real(0)) {
       low = t;
@@ -108,16 +108,16 @@ VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, 
   return hit;
 }
 
-VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
+VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
   SurfaceHit hit;
   hit.found = false;
   bool sheet = false;
   real scale = abs(o.z) + semi_diameter;
-  if (s.kind.x <= kSphere || (USED_KINDS >> uint(kConic)) == 0u) {
+  if (IS_KIND(s, kPlane) || IS_KIND(s, kSphere)) {
     real t = sphere_crossing(s.shape.x, o, d, sheet);
     hit.t = abs(t) <= real(4) * kEpsilon * scale ? real(0) : t;  // a start that touches the surface is a hit
     vec2 q = vec2(o.x + hit.t * d.x, o.y + hit.t * d.y);
-    hit.point = surface_point(TABLE s, q);
+    hit.point = surface_point(TABLE KINDS(kinds) s, q);
     hit.found = sheet && hit.t >= real(0) && hit.point.inside;
     return hit;
   }
@@ -128,7 +128,7 @@ VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM SurfaceData s, vec3 o, vec3
     real last = scale;
     for (int i = 0; i < kNewtonSteps; ++i) {
       vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
-      hit.point = surface_point(TABLE s, q);
+      hit.point = surface_point(TABLE KINDS(kinds) s, q);
       real slope = d.z - hit.point.gradient.x * d.x - hit.point.gradient.y * d.y;
       // Below this slope (71 degrees of incidence) another crossing may come first; the search decides.
       if (!(slope < real(-0.33))) {
@@ -150,5 +150,5 @@ VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM SurfaceData s, vec3 o, vec3
     hit.found = true;
     return hit;
   }
-  return bracketed_hit(TABLE s, o, d, semi_diameter);
+  return bracketed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
 }

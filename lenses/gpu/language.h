@@ -4,9 +4,10 @@
 //
 // TABLE_PARAM / TABLE hand on the table of spline coefficients: an argument in C++, a texel buffer named `lens_table`
 // declared by the including shader in GLSL.
-// USED_KINDS: bit k is set if any lens has a surface of kind k; a shader may define it as a specialisation constant, so
-// that code for kinds that no lens has is never compiled.
-#define KIND_USED(kind) ((USED_KINDS & (1u << uint(kind))) != 0u)
+// BACK_KINDS, FRONT_KINDS: bit k is set if any lens has a back or front surface of kind k; a shader may define them as
+// specialisation constants, so that code for kinds that no lens has is never compiled. KINDS_PARAM / KINDS(k) hand them
+// on to the functions that look at one surface: a device that takes both sides of a branch then evaluates no spline for
+// a spherical back. KIND_USED and IS_KIND ask inside such a function.
 
 #ifdef __cplusplus
 
@@ -15,7 +16,11 @@
 #define TABLE_PARAM const Table &table,
 #define TABLE table,
 #define TABLE_AT(i) table.at(i)
-#define USED_KINDS 0xffffffffu
+#define KINDS_PARAM
+#define KINDS(k)
+#define KIND_USED(k) true
+#define IS_KIND(s, k) ((s).kind.x == (k))
+#define LENS_USED true
 
 #else
 
@@ -25,9 +30,15 @@
 #define TABLE_PARAM
 #define TABLE
 #define TABLE_AT(i) texelFetch(lens_table, i)
-#ifndef USED_KINDS
-#define USED_KINDS 0xffffffffu
+#ifndef BACK_KINDS
+#define BACK_KINDS 0xffffffffu
+#define FRONT_KINDS 0xffffffffu
 #endif
+#define KINDS_PARAM uint kinds,
+#define KINDS(k) k,
+#define KIND_USED(k) ((kinds & (1u << uint(k))) != 0u)
+#define IS_KIND(s, k) (KIND_USED(k) && (kinds == (1u << uint(k)) || (s).kind.x == (k)))
+#define LENS_USED (BACK_KINDS != 0u)
 const float kEpsilon = 1.1920929e-7;
 
 #endif

@@ -81,7 +81,7 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   path.front_hit = start;
   real index = lens.glass.x;
   real semi_diameter = lens.glass.z;
-  SurfaceHit back = intersect_surface(TABLE lens.back, start, direction, semi_diameter);
+  SurfaceHit back = intersect_surface(TABLE KINDS(BACK_KINDS) lens.back, start, direction, semi_diameter);
   vec3 p = start + back.t * direction;
   if (!back.found || !(p.x * p.x + p.y * p.y <= semi_diameter * semi_diameter)) {
     return path;
@@ -98,11 +98,11 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   // The front surface is met in its own vertex frame, where the thickness of a thin lens keeps its digits.
   path.status = kStatusInverted;
   vec3 o = vec3(p.x, p.y, back.point.z + lens.glass.y);
-  SurfacePoint above = surface_point(TABLE lens.front, vec2(p.x, p.y));
+  SurfacePoint above = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(p.x, p.y));
   if (above.inside && !(o.z > above.z)) {
     return path;
   }
-  SurfaceHit front = intersect_surface(TABLE lens.front, o, path.direction_glass, semi_diameter);
+  SurfaceHit front = intersect_surface(TABLE KINDS(FRONT_KINDS) lens.front, o, path.direction_glass, semi_diameter);
   path.status = kStatusMissFront;
   vec3 exit = o + front.t * path.direction_glass;
   if (!front.found || !(exit.x * exit.x + exit.y * exit.y <= semi_diameter * semi_diameter)) {

@@ -41,7 +41,7 @@ VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, m
   line.start = origin;
   line.back_hit = origin;
   line.direction_object = line.direction;
-  if (lens.glass.w == real(0)) {
+  if (!LENS_USED || lens.glass.w == real(0)) {
     return line;
   }
   bool on_eye = lens.mount.x == 1;
@@ -62,7 +62,7 @@ VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, m
 
 // The ray-transfer matrix from the pupil plane to where the line starts into the scene.
 VG_FUNCTION RayTransfer sight_line_transfer(LensData lens, SightLine line) {
-  if (lens.glass.w == real(0)) {
+  if (!LENS_USED || lens.glass.w == real(0)) {
     return free_flight(real(0));
   }
   mat3 frame = lens.mount.x == 1 ? transpose(line.turn) : mat3(real(1));

@@ -29,7 +29,7 @@ struct SurfacePoint {
   bool inside;   // the surface exists at this (x, y)
 };
 
-VG_FUNCTION SurfacePoint conic_point(TABLE_PARAM SurfaceData s, vec2 p) {
+VG_FUNCTION SurfacePoint conic_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
   real c = s.shape.x;
   real k1 = real(1) + s.shape.z;
   real r2 = dot(p, p);
@@ -233,15 +233,15 @@ VG_FUNCTION SurfacePoint bspline_surface_point(TABLE_PARAM SurfaceData s, vec2 p
   return point;
 }
 
-VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM SurfaceData s, vec2 p) {
-  if (KIND_USED(kBsplineHeightField) && s.kind.x == kBsplineHeightField) {
+VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+  if (IS_KIND(s, kBsplineHeightField)) {
     return bspline_height_point(TABLE s, p);
   }
-  if (KIND_USED(kTorus) && s.kind.x == kTorus) {
+  if (IS_KIND(s, kTorus)) {
     return torus_point(s, p);
   }
-  if (KIND_USED(kBsplineSurface) && s.kind.x == kBsplineSurface) {
+  if (IS_KIND(s, kBsplineSurface)) {
     return bspline_surface_point(TABLE s, p);
   }
-  return conic_point(TABLE s, p);  // plane and sphere are conics
+  return conic_point(TABLE KINDS(kinds) s, p);  // plane and sphere are conics
 }

@@ -3,7 +3,8 @@
 // The `trace` command's records with the very functions that the render kernels use.
 layout(binding = 0) uniform samplerBuffer lens_table;
 layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;
-#define USED_KINDS kSurfaceKinds
+#define BACK_KINDS (kSurfaceKinds & 0xffffu)
+#define FRONT_KINDS (kSurfaceKinds >> 16)
 #include "lenses/gpu/optics.h"
 
 layout(local_size_x = 64) in;

@@ -11,6 +11,7 @@
 struct SurfaceHit {
   bool found;
   bool ledge;  // not found, as the ray ends in the wall between a segment and its base, near t
+  bool unsettled;  // not found, and not searched for any longer (HURRIED)
   real t;
   SurfacePoint point;
 };
@@ -125,6 +126,7 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
   SurfaceHit hit;
   hit.found = false;
   hit.ledge = false;
+  hit.unsettled = false;
   bool sheet = false;
   real dd = real(1);
   if (IS_PLACED(s)) {
@@ -168,6 +170,11 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
     hit.found = true;
     return hit;
   }
+  if (HURRIED) {
+    hit.t = real(0);
+    hit.unsettled = true;
+    return hit;
+  }
   return bracketed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
 }
 
@@ -192,6 +199,8 @@ VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM KINDS_PARAM SurfaceData s, 
     SurfaceHit inner = placed_hit(TABLE KINDS(kinds) segment_surface(TABLE s), o, d, semi_diameter);
     bool hit_counts = hit.found && !in_segment(TABLE s, vec2(o.x + hit.t * d.x, o.y + hit.t * d.y));
     bool inner_counts = inner.found && in_segment(TABLE s, vec2(o.x + inner.t * d.x, o.y + inner.t * d.y));
+    inner.unsettled = hit.unsettled || inner.unsettled;
+    hit.unsettled = inner.unsettled;
     bool meet = hit.found && inner.found &&
                 abs(hit.t - inner.t) <= real(16) * kEpsilon * (abs(o.z) + semi_diameter);
     if (inner_counts && !(hit_counts && hit.t <= inner.t)) {

@@ -1,6 +1,8 @@
 #include "render/frame_job.hpp"
 
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "render/gpu_tracer.hpp"
 #include "render/map_range.hpp"
@@ -78,7 +80,7 @@ void FrameJob::record_trace(vk::Commands& commands) {
 void FrameJob::aim(vk::Commands& commands) {
   const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list});
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
-    commands.fill_zero(out_.list);
+    empty_list(commands);
     commands.barrier();
     dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
     commands.barrier();
@@ -93,10 +95,11 @@ void FrameJob::find_hits_by_tile(vk::Commands& commands) {
   aim(commands);
   commands.timestamp("rays");
   commands.barrier();
-  commands.fill_zero(out_.list);
+  empty_list(commands);
   commands.barrier();
-  dispatch(commands, kernels_.get(Stage::tile, variant_),
-           {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
+  dispatch(
+      commands, kernels_.get(Stage::tile, variant_),
+      {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
   commands.barrier();
   dispatch_list(commands, kernels_.get(Stage::left_out, variant_),
                 with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list}));
@@ -107,7 +110,7 @@ void FrameJob::find_hits_by_tile(vk::Commands& commands) {
 void FrameJob::record_edges(vk::Commands& commands) {
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     commands.barrier();
-    commands.fill_zero(out_.list);
+    empty_list(commands);
     commands.barrier();
     dispatch_view(commands, kernels_.get(Stage::find_edges), {&out_.pixels, &out_.keys, &out_.list});
     commands.barrier();
@@ -147,7 +150,12 @@ void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const 
 }
 
 void FrameJob::dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  commands.dispatch(kernel, buffers, vk::bytes_of(data_), gpu::kListWorkgroups);
+  commands.dispatch_indirect(kernel, buffers, vk::bytes_of(data_), out_.list);
+}
+
+void FrameJob::empty_list(vk::Commands& commands) {
+  constexpr std::array<std::uint32_t, gpu::kListFirstAt> kEmpty{0, 1, 1, 0};
+  commands.update(out_.list, std::as_bytes(std::span(kEmpty)));
 }
 
 void FrameJob::trace_with(vk::Commands& commands, Stage stage, const Buffers& own) {

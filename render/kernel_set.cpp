@@ -55,8 +55,8 @@ Recipe recipe_of(Stage stage) {
               {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
               Constants::lanes_and_features};
     case Stage::left_out:
-      return {"left_out", shaders::left_out, scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}),
-              Constants::scene};
+      return {"left_out", shaders::left_out,
+              scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}), Constants::scene};
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
     case Stage::find_edges:

@@ -12,6 +12,7 @@
 #include "app/picture.hpp"
 #include "app/render_report.hpp"
 #include "app/render_setup.hpp"
+#include "app/scene_options.hpp"
 #include "render/image/colour_bar.hpp"
 #include "render/image/exr.hpp"
 #include "render/image/output_error.hpp"
@@ -27,12 +28,8 @@ using tracking::InputError;
 
 struct RenderOptions {
   SceneOptions scene;
+  PictureOptions picture;
   std::string mode = "adof";
-  std::string accuracy = "standard";
-  double threshold_px = 0.5;
-  bool all_effects = false;
-  std::string output_space = "display";
-  double exposure = 0.0;
   std::optional<int> samples;
   std::optional<double> target_error;
   std::string range;
@@ -82,8 +79,7 @@ void check_options(const RenderOptions& options) {
   if (options.channels == "all" && !is_exr(options.output)) {
     throw InputError("--channels", "", "all needs an .exr --output; a .png holds the picture only");
   }
-  check_range("--threshold", options.threshold_px, 0.0, 1000.0, "px");
-  check_range("--exposure", options.exposure, -32.0, 32.0, "EV");
+  check_picture_options(options.picture);
   if (options.samples) {
     check_range("--samples", *options.samples, 1, kMostSamples, "");
   }
@@ -113,8 +109,8 @@ render::FrameConfig frame_config(const RenderOptions& options, const RenderSetup
   config.width = setup.size[0];
   config.height = setup.size[1];
   config.mode = mode_of(options.mode);
-  config.threshold_px = options.all_effects ? 0.0 : options.threshold_px;
-  config.exposure = options.exposure;
+  config.threshold_px = options.picture.threshold();
+  config.exposure = options.picture.exposure;
   config.samples = options.samples.value_or(options.target_error ? kSamplesForTarget : kDefaultSamples);
   config.target_error = options.target_error;
   config.seed = options.seed;
@@ -210,29 +206,12 @@ int render_picture(const RenderOptions& options) {
   return 0;
 }
 
-void add_scene_options(CLI::App& command, SceneOptions& scene) {
-  command.add_option("--scene", scene.scene, "FILE.gltf or FILE.glb [the built-in reading room]");
-  command.add_option("--wearer", scene.wearer, "Wearer file [35 years, emmetropic]");
-  command.add_option("--spectacles", scene.spectacles, "Spectacles file, or none")->capture_default_str();
-  command.add_option("--compare", scene.compare, "A second pair: A left, B right of a divider in each eye");
-  command
-      .add_option("--viewing", scene.viewing,
-                  "fixed: all rays from the primary-gaze pupil; scanning: the eye turns to each pixel; gaze: one\n"
-                  "pupil turned to the gaze, one accommodation state")
-      ->check(CLI::IsMember({"fixed", "scanning", "gaze"}))
-      ->capture_default_str();
-  command.add_option("--headset", scene.headset, "Headset file: pixels lie on its virtual image, light sets the pupil");
+// How many eyes and pixels.
+void add_view_options(CLI::App& command, SceneOptions& scene) {
   command.add_option("--eye", scene.eye, "left, right, or both (left | right side by side)")
       ->check(CLI::IsMember({"left", "right", "both"}))
       ->capture_default_str();
   command.add_option("--size", scene.size, "WxH in pixels, of each eye's picture")->capture_default_str();
-  command.add_option("--fov", scene.fov_deg, "Vertical field of view, degrees")->capture_default_str();
-  auto* gaze = command.add_option("--gaze", scene.gaze, "YAW,PITCH in degrees, + right, + up, up to 45 each")
-                   ->capture_default_str();
-  command.add_option("--look-at", scene.look_at, "A target of the scene by name; the picture is centred on it")
-      ->excludes(gaze);
-  command.add_option("--pose", scene.pose,
-                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils [the scene's camera]");
 }
 
 }  // namespace
@@ -246,24 +225,11 @@ Action add_render_command(CLI::App& program) {
       "    --spectacles assets/spectacles/presbyopia_bspline_sphere.json --look-at near_card --output near.png\n"
       "The picture is centred on the gaze; head and lens stay where they are.");
   add_scene_options(*command, options->scene);
+  add_view_options(*command, options->scene);
   command->add_option("--mode", options->mode, "What the picture shows")
       ->check(CLI::IsMember(kModes))
       ->capture_default_str();
-  command->add_option("--accuracy", options->accuracy, "Rung of the accuracy ladder")
-      ->check(CLI::IsMember({"standard"}))
-      ->capture_default_str();
-  command->add_option("--threshold", options->threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
-      ->capture_default_str();
-  command->add_flag("--all-effects", options->all_effects, "Draw every blur, however small");
-  command
-      ->add_option("--output-space", options->output_space,
-                   "display or retina; the effects drawn so far look the same in both")
-      ->check(CLI::IsMember({"display", "retina"}))
-      ->capture_default_str();
-  command
-      ->add_option("--exposure", options->exposure,
-                   "EV of a .png, fixed for the whole run; an .exr holds radiance as it is")
-      ->capture_default_str();
+  add_picture_options(*command, options->picture);
   auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64]");
   command
       ->add_option("--target-error", options->target_error,

@@ -154,7 +154,7 @@ int render_picture(const RenderOptions& options) {
   const RenderSetup setup = make_render_setup(options.scene, scene);
   const render::FrameConfig config = frame_config(options, setup);
   render::vk::Device device = open_device(options.device);
-  render::Renderer renderer(device, scene);
+  render::Renderer renderer(device, scene, {.traversal_file = traversal_file()});
   render::RenderedFrame frame;
   std::vector<std::vector<render::vk::StageTime>> runs;
   const auto draw = [&](const render::Progress& progress) {

@@ -126,3 +126,24 @@ VG_FUNCTION RayTransfer lens_transfer(LensData lens, LensPath path, vec3 e_h, ve
   m = propagate_transfer(m, path.t_front / lens.glass.x);
   return refract_transfer(m, path.front, path.gamma_front, path.direction_object, e1, e2);
 }
+
+// The path of a ray that trace_lens has found to pass, followed again from its lengths in air and in glass (t_back,
+// t_front) without searching for the surfaces.
+VG_FUNCTION LensPath follow_lens(TABLE_PARAM LensData lens, vec3 start, vec3 direction, vec2 lengths) {
+  LensPath path;
+  path.status = kStatusOk;
+  path.start = start;
+  path.direction = direction;
+  path.t_back = lengths.x;
+  path.t_front = lengths.y;
+  path.back_hit = start + lengths.x * direction;
+  path.back = surface_point(TABLE KINDS(BACK_KINDS) lens.back, vec2(path.back_hit.x, path.back_hit.y));
+  bool transmitted = false;
+  path.gamma_back = refract_direction(direction, path.back.gradient, real(1), lens.glass.x, path.direction_glass, transmitted);
+  vec3 exit = vec3(path.back_hit.x, path.back_hit.y, path.back.z + lens.glass.y) + lengths.y * path.direction_glass;
+  path.front = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(exit.x, exit.y));
+  path.front_hit = vec3(exit.x, exit.y, exit.z - lens.glass.y);
+  path.gamma_front = refract_direction(path.direction_glass, path.front.gradient, lens.glass.x, real(1),
+                                       path.direction_object, transmitted);
+  return path;
+}

@@ -9,12 +9,15 @@ const int kModeAstigmatism = 4;
 const int kModeAccommodation = 5;
 const int kModeBlur = 6;
 
-// 64 bytes of push constants, the same for every kernel of a frame.
+// 80 bytes of push constants, the same for every kernel of a frame.
 struct FrameData {
   ivec4 size;      // width, height, views, mode
   ivec4 sampling;  // index of this sample (dof), samples so far, seed, colour map
   vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor, -
   vec4 map_range;  // low, high, unit factor, -
+  // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
+  // one load for all invocations of a software device, what anything else selects is one for each.
+  ivec4 view;
 };
 
 // A traced pixel, 16 bytes: radiance and the blur ellipse as half floats, the depth beside them.
@@ -24,3 +27,7 @@ struct FrameData {
 
 // A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
 const int kWavefrontTexels = 2;
+
+// Lists of pixels: the first word counts, the rest are indices. The kernels that work through a list start this many
+// workgroups and go round: an invocation with nothing to do costs a software device as much as one with work.
+const uint kListWorkgroups = 1024u;

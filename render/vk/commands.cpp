@@ -21,6 +21,8 @@ TexelKind texel_kind(Binding binding) {
       return {::vk::Format::eR32G32B32A32Sfloat, 16};
     case Binding::texel_rgba32ui:
       return {::vk::Format::eR32G32B32A32Uint, 16};
+    case Binding::texel_rg32ui:
+      return {::vk::Format::eR32G32Uint, 8};
     case Binding::texel_r32ui:
       return {::vk::Format::eR32Uint, 4};
     case Binding::texel_rgba8_unorm:

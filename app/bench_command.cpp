@@ -32,7 +32,7 @@ struct BenchOptions {
   std::string lenses = "all", modes = "all", sizes = "512", shading = "both";
   int rounds = 3;
   std::uint32_t seed = 0;
-  std::string device, output, figures;
+  std::string traversal = "automatic", device, output, figures;
   bool json = false;
 };
 
@@ -112,6 +112,9 @@ BenchConfig config_of(const BenchOptions& options) {
   config.exposure = options.picture.exposure;
   config.seed = options.seed;
   config.device = options.device;
+  config.traversal = options.traversal == "tile"      ? render::Traversal::tile
+                     : options.traversal == "per_ray" ? render::Traversal::per_ray
+                                                      : render::Traversal::automatic;
   return config;
 }
 
@@ -207,6 +210,12 @@ Action add_bench_command(CLI::App& program) {
   command
       ->add_option("--shading", options->shading,
                    "bare (as the paper), full, or both: bare rows of every mode,\nfull ones of adof")
+      ->capture_default_str();
+  command
+      ->add_option("--traversal", options->traversal,
+                   "How chief rays find the scene: automatic (the faster by a measurement that is kept), per_ray or "
+                   "tile")
+      ->check(CLI::IsMember({"automatic", "per_ray", "tile"}))
       ->capture_default_str();
   command->add_option("--rounds", options->rounds, "How often each frame is timed")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/device.hpp"
+#include "app/option_values.hpp"
 #include "render/chief_rays.hpp"
 #include "render/device_speed.hpp"
 #include "render/renderer.hpp"
@@ -57,7 +58,7 @@ class Bench {
         progress_(progress),
         setups_(make_setups()),
         device_(open_device(config.device)),
-        renderer_(device_, scene),
+        renderer_(device_, scene, {.traversal = config.traversal, .traversal_file = traversal_file()}),
         peer_(scene) {
     report_.peer_threads = std::max(1U, std::thread::hardware_concurrency());
   }

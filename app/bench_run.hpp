@@ -9,6 +9,7 @@
 #include "app/bench/bench_report.hpp"
 #include "app/render_setup.hpp"
 #include "render/scene/scene.hpp"
+#include "render/traversal.hpp"
 
 namespace app {
 
@@ -27,6 +28,7 @@ struct BenchConfig {
   double exposure = 0.0;
   std::uint32_t seed = 0;
   std::string device;
+  render::Traversal traversal = render::Traversal::automatic;
 };
 
 // Called before a frame of a round; round 0 does not count.

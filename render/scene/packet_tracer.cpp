@@ -114,6 +114,7 @@ PacketTracer::PacketTracer(const Scene& scene) : state_(std::make_unique<State>(
   State& s = *state_;
   s.device = make_embree_device();
   s.scene.reset(rtcNewScene(s.device.get()));
+  rtcSetSceneBuildQuality(s.scene.get(), RTC_BUILD_QUALITY_HIGH);  // the best that the peer can do
   s.positions.reserve(scene.vertices.size() + 1);
   for (const Vertex& vertex : scene.vertices) s.positions.push_back(vertex.position);
   s.positions.emplace_back(0.0F);  // Embree loads 16 bytes of the last one

@@ -142,6 +142,12 @@ TEST(BenchReport, RatiosAreThoseOfTheRows) {
   EXPECT_NE(table.find("Embree16 50.0 M/s: 0.80"), std::string::npos) << table;
   EXPECT_NE(table.find("bspline/sphere adof / none adof: 1.25 (paper: 2.10)"), std::string::npos) << table;
   EXPECT_NE(table.find("25.00 to 25.00): 2.00"), std::string::npos) << table;
+  // Where hits are found in a stage of their own, it alone counts.
+  BenchReport tiled = report();
+  tiled.rows[1].stages = {{"rays", 5.0}, {"tile", 10.0}, {"trace", 10.0}, {"encode", 5.0}};
+  const std::string of_tiles = bench_table(tiled);
+  EXPECT_NE(of_tiles.find("100.0 M/s (tile stage of none/pin), Embree16 50.0 M/s: 2.00"), std::string::npos)
+      << of_tiles;
 }
 
 // The paper's 1000 / 66.5 ms at 1024 squared is that times (1000 / 1024)^2 at 1000 squared.

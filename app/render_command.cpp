@@ -147,16 +147,13 @@ render::Progress progress_bar(bool wanted) {
   return [](int done, int of) { std::fprintf(stderr, "\r%d of at most %d samples", done, of); };
 }
 
-int render_picture(const RenderOptions& options) {
-  check_options(options);
-  const std::string scene_file = options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
-  const render::Scene scene = render::read_gltf(scene_file);
-  const RenderSetup setup = make_render_setup(options.scene, scene);
-  const render::FrameConfig config = frame_config(options, setup);
-  render::vk::Device device = open_device(options.device);
-  render::Renderer renderer(device, scene, {.traversal_file = traversal_file()});
-  render::RenderedFrame frame;
+struct Drawn {
+  render::RenderedFrame frame;  // the last
   std::vector<std::vector<render::vk::StageTime>> runs;
+};
+
+Drawn draw_frames(const RenderOptions& options, const RenderSetup& setup, const render::FrameConfig& config,
+                  render::Renderer& renderer, StartUp& start_up) {
   const auto draw = [&](const render::Progress& progress) {
     try {
       return renderer.render(setup.lenses, setup.views, config, progress);
@@ -167,35 +164,64 @@ int render_picture(const RenderOptions& options) {
   if (options.repeat > 1) {
     // The first frame also pays for compiling; it is not timed.
     static_cast<void>(draw({}));
+    start_up.mark("first frame");
   }
+  Drawn drawn;
   for (int i = 0; i < options.repeat; ++i) {
     const render::Progress progress = progress_bar(config.mode == Mode::dof);
-    frame = draw(progress);
+    drawn.frame = draw(progress);
+    if (options.repeat == 1) {
+      start_up.mark("first frame");
+    }
     if (progress) {
       std::fputc('\n', stderr);
     }
-    runs.push_back(frame.stages);
+    drawn.runs.push_back(drawn.frame.stages);
   }
-  close_device(device);
-  const PictureLayout layout{config.width, config.height, setup.pairs.size(), setup.sides.size()};
-  write_picture(options, layout, frame, config.mode);
+  return drawn;
+}
 
+RenderReport report_of(const RenderOptions& options, const RenderSetup& setup, const render::FrameConfig& config,
+                       const Drawn& drawn) {
   RenderReport report;
   report.output = options.output;
-  report.device = device.name();
   report.mode = options.mode;
   report.width = config.width;
   report.height = config.height;
-  report.triangles = scene.triangles.size();
   report.views = setup.views.size();
-  report.samples = frame.samples;
-  report.error_estimate = frame.error_estimate;
+  report.samples = drawn.frame.samples;
+  report.error_estimate = drawn.frame.error_estimate;
   report.is_map = render::is_map(config.mode);
-  report.range_low = frame.range.low;
-  report.range_high = frame.range.high;
+  report.range_low = drawn.frame.range.low;
+  report.range_high = drawn.frame.range.high;
   report.range_unit = map_unit(config.mode);
   report.sight = sight_rows(setup);
-  report.stages = stage_rows(runs);
+  report.stages = stage_rows(drawn.runs);
+  report.peak_memory_mib = peak_memory_mib();
+  return report;
+}
+
+int render_picture(const RenderOptions& options) {
+  StartUp start_up;
+  check_options(options);
+  const std::string scene_file = options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
+  const render::Scene scene = render::read_gltf(scene_file);
+  start_up.mark("scene");
+  const RenderSetup setup = make_render_setup(options.scene, scene);
+  start_up.mark("fixation");
+  const render::FrameConfig config = frame_config(options, setup);
+  render::vk::Device device = open_device(options.device);
+  start_up.mark("device");
+  render::Renderer renderer(device, scene, {.traversal_file = traversal_file()});
+  start_up.mark("trees and textures");
+  const Drawn drawn = draw_frames(options, setup, config, renderer, start_up);
+  close_device(device);
+  const PictureLayout layout{config.width, config.height, setup.pairs.size(), setup.sides.size()};
+  write_picture(options, layout, drawn.frame, config.mode);
+  RenderReport report = report_of(options, setup, config, drawn);
+  report.device = device.name();
+  report.triangles = scene.triangles.size();
+  report.start_up = start_up.parts();
   if (!options.timings.empty()) {
     append_timings(options.timings, report);
   }
@@ -248,7 +274,8 @@ Action add_render_command(CLI::App& program) {
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
   command->add_option("--repeat", options->repeat, "Render so often after a first, untimed frame; report the median")
       ->capture_default_str();
-  command->add_option("--timings", options->timings, "CSV file that a row a stage is added to");
+  command->add_option("--timings", options->timings,
+                      "CSV file that a row a stage is added to, and one a part of the start-up");
   command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();
   command->add_flag("--json", options->json, "Print the numbers as JSON");
   return [options] { return render_picture(*options); };

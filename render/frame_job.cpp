@@ -74,10 +74,26 @@ void FrameJob::record_trace(vk::Commands& commands) {
   commands.timestamp("trace");
 }
 
+// A view's list is worked off before the next view's is made: they share the memory.
+void FrameJob::aim(vk::Commands& commands) {
+  const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list});
+  for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+    commands.fill_zero(out_.list);
+    commands.barrier();
+    dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
+    commands.barrier();
+    if (variant_.surface_kinds != 0) {
+      dispatch_list(commands, kernels_.get(Stage::unsettled, variant_), buffers);
+      commands.barrier();
+    }
+  }
+}
+
 void FrameJob::find_hits_by_tile(vk::Commands& commands) {
-  commands.fill_zero(out_.list);
-  trace_with(commands, Stage::rays, {&out_.ray_origins, &out_.ray_directions});
+  aim(commands);
   commands.timestamp("rays");
+  commands.barrier();
+  commands.fill_zero(out_.list);
   commands.barrier();
   dispatch(commands, kernels_.get(Stage::tile, variant_),
            {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
@@ -88,7 +104,6 @@ void FrameJob::find_hits_by_tile(vk::Commands& commands) {
   commands.barrier();
 }
 
-// A view's list of edge pixels is worked off before the next view's is made: they share the memory.
 void FrameJob::record_edges(vk::Commands& commands) {
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     commands.barrier();

@@ -30,6 +30,7 @@ class FrameJob {
  private:
   using Buffers = std::vector<const vk::Buffer*>;
 
+  void aim(vk::Commands& commands);
   void find_hits_by_tile(vk::Commands& commands);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);

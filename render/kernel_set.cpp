@@ -14,6 +14,7 @@
 #include "shaders/left_out.hpp"
 #include "shaders/rays.hpp"
 #include "shaders/tile.hpp"
+#include "shaders/unsettled.hpp"
 
 namespace render {
 namespace {
@@ -45,7 +46,9 @@ Recipe recipe_of(Stage stage) {
   using enum Binding;
   switch (stage) {
     case Stage::rays:
-      return {"rays", shaders::rays, scene_and(2), Constants::scene};
+      return {"rays", shaders::rays, scene_and(3), Constants::scene};
+    case Stage::unsettled:
+      return {"unsettled", shaders::unsettled, scene_and(3), Constants::scene};
     case Stage::tile:
       return {"tile",
               shaders::tile,

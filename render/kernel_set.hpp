@@ -10,7 +10,7 @@
 
 namespace render {
 
-enum class Stage : std::uint32_t { rays, tile, left_out, chief, find_edges, edges, samples, blur, encode };
+enum class Stage : std::uint32_t { rays, unsettled, tile, left_out, chief, find_edges, edges, samples, blur, encode };
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {

@@ -7,7 +7,10 @@
 // BACK_KINDS, FRONT_KINDS: bit k is set if any lens has a back or front surface of kind k; a shader may define them as
 // specialisation constants, so that code for kinds that no lens has is never compiled. KINDS_PARAM / KINDS(k) hand them
 // on to the functions that look at one surface: a device that takes both sides of a branch then evaluates no spline for
-// a spherical back. KIND_USED and IS_KIND ask inside such a function.
+// a spherical back. KIND_USED and IS_KIND ask inside such a function. Placement and segments have bits of their own, so
+// that lenses without them pay nothing.
+// MAY_CROSS: front and back of some lens may cross. HURRIED: a search that does not settle at once is given up as
+// kStatusUnsettled, so that the code for it is not compiled; such rays are few and traced again.
 
 #ifdef __cplusplus
 
@@ -21,6 +24,8 @@
 #define KIND_USED(k) true
 #define IS_KIND(s, k) ((s).kind.x == (k))
 #define LENS_USED true
+#define MAY_CROSS true
+#define HURRIED false
 
 #else
 
@@ -33,12 +38,19 @@
 #ifndef BACK_KINDS
 #define BACK_KINDS 0xffffffffu
 #define FRONT_KINDS 0xffffffffu
+#define MAY_CROSS true
+#endif
+#ifndef HURRIED
+#define HURRIED false
 #endif
 #define KINDS_PARAM uint kinds,
 #define KINDS(k) k,
 #define KIND_USED(k) ((kinds & (1u << uint(k))) != 0u)
-#define IS_KIND(s, k) (KIND_USED(k) && (kinds == (1u << uint(k)) || (s).kind.x == (k)))
+#define IS_KIND(s, k) (KIND_USED(k) && ((kinds & kShapeBits) == (1u << uint(k)) || (s).kind.x == (k)))
 #define LENS_USED (BACK_KINDS != 0u)
 const float kEpsilon = 1.1920929e-7;
 
 #endif
+
+#define IS_PLACED(s) (KIND_USED(kPlaced) && (s).shift.w != real(0))
+#define IS_SEGMENTED(s) (KIND_USED(kSegmented) && (s).parts.z > 0)

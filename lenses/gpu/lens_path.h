@@ -6,13 +6,14 @@ const int kStatusMissFront = 2;
 const int kStatusTirFront = 3;
 const int kStatusInverted = 4;
 const int kStatusSingular = 5;
+const int kStatusUnsettled = 6;  // of a HURRIED trace alone
 
 struct LensData {
   vec4 axis_x;  // columns of the rotation eye_from_lens; w: the translation's components
   vec4 axis_y;
   vec4 axis_z;
   vec4 glass;   // index, centre thickness, half diameter, 1 if there is a lens at all
-  ivec4 mount;  // x: 1 if attached to the eye
+  ivec4 mount;  // x: 1 if attached to the eye, y: 1 if its surfaces may cross
   SurfaceData back;
   SurfaceData front;
 };
@@ -83,7 +84,11 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   real semi_diameter = lens.glass.z;
   SurfaceHit back = intersect_surface(TABLE KINDS(BACK_KINDS) lens.back, start, direction, semi_diameter);
   vec3 p = start + back.t * direction;
-  if (!back.found || !(p.x * p.x + p.y * p.y <= semi_diameter * semi_diameter)) {
+  bool within = p.x * p.x + p.y * p.y <= semi_diameter * semi_diameter;
+  if (!back.found || !within) {
+    // In the wall of a ledge light is stopped as at the rim; only what passes beside the lens misses the back.
+    path.status = back.ledge && within ? kStatusMissFront : kStatusMissBack;
+    path.status = back.unsettled ? kStatusUnsettled : path.status;
     return path;
   }
   path.back = back.point;
@@ -98,12 +103,14 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   // The front surface is met in its own vertex frame, where the thickness of a thin lens keeps its digits.
   path.status = kStatusInverted;
   vec3 o = vec3(p.x, p.y, back.point.z + lens.glass.y);
-  SurfacePoint above = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(p.x, p.y));
-  if (above.inside && !(o.z > above.z)) {
-    return path;
+  if (MAY_CROSS) {
+    SurfacePoint above = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(p.x, p.y));
+    if (above.inside && !(o.z > above.z)) {
+      return path;
+    }
   }
   SurfaceHit front = intersect_surface(TABLE KINDS(FRONT_KINDS) lens.front, o, path.direction_glass, semi_diameter);
-  path.status = kStatusMissFront;
+  path.status = front.unsettled ? kStatusUnsettled : kStatusMissFront;
   vec3 exit = o + front.t * path.direction_glass;
   if (!front.found || !(exit.x * exit.x + exit.y * exit.y <= semi_diameter * semi_diameter)) {
     return path;

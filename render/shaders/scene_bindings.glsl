@@ -5,9 +5,10 @@ layout(binding = 2) uniform samplerBuffer bvh_triangles;
 layout(binding = 3) uniform samplerBuffer shading_triangles;
 layout(binding = 4) uniform usamplerBuffer texels;  // render/scene/texture_texels.hpp
 
-layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // bit k: some lens has a back of kind k; bit 16 + k: a front
+layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // surface_kinds() of render/gpu_tracer.hpp
 #define BACK_KINDS (kSurfaceKinds & 0xffffu)
-#define FRONT_KINDS (kSurfaceKinds >> 16)
+#define FRONT_KINDS ((kSurfaceKinds >> 16) & 0x7fffu)
+#define MAY_CROSS ((kSurfaceKinds >> 31) != 0u)
 layout(constant_id = 4) const uint kBare = 0u;  // 1: the first light only, without shadow rays
 layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // what the scene has need of, kFeature... of view.h
 #define HAS(features) ((kSceneFeatures & uint(features)) != 0u)

@@ -102,6 +102,7 @@ struct Screen {
   void expect(Hole&& is_hole) const {
     const auto rays = fan();
     const auto found = traced(scene, rays);
+    const render::RayQuery single(scene);
     int holes = 0, there = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const glm::vec3 d = rays[i].direction;
@@ -110,6 +111,7 @@ struct Screen {
       if (d.z > 0.0F || std::abs(at.x) > 0.999F || std::abs(at.y) > 0.999F || edge < 1e-4F) continue;
       const bool hole = is_hole(u);
       ASSERT_EQ(found[i] >= 2, hole) << at.x << " " << at.y;
+      ASSERT_EQ(single.looked_at(glm::dvec3(0.0), glm::dvec3(d)).value().triangle, found[i]);
       ++(hole ? holes : there);
     }
     EXPECT_GT(holes, 1000);

@@ -17,7 +17,11 @@ static_assert(gpu::kModePinhole == static_cast<int>(Mode::pinhole) && gpu::kMode
               gpu::kModeAccommodation == static_cast<int>(Mode::accommodation) &&
               gpu::kModeBlur == static_cast<int>(Mode::blur));
 
-constexpr std::uint32_t kTile = 8;      // local size of the frame's kernels
+constexpr std::uint32_t kGroup = 8;  // local size of the frame's kernels
+// What a bare picture keeps of a scene: where faces are, and their base colour.
+constexpr auto kBareFeatures =
+    static_cast<std::uint32_t>(gpu::kFeatureCull | gpu::kFeatureMask | gpu::kFeatureTexture | gpu::kFeatureColours |
+                               gpu::kFeatureSecondUv | gpu::kFeatureTransform | gpu::kFeatureUnlit);
 constexpr float kLargestBlur = 512.0F;  // px; beyond it nothing is left to see
 constexpr float kNoBlurDrawn = 1e9F;    // px, as a threshold
 
@@ -54,6 +58,9 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config);
   variant_.bare = config.bare;
+  if (config.bare) {
+    variant_.scene_features &= kBareFeatures;
+  }
   variant_.found = traversal == Traversal::tile;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
   data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
@@ -121,13 +128,15 @@ void FrameJob::record_edges(vk::Commands& commands) {
 
 void FrameJob::record_blur(vk::Commands& commands) {
   commands.barrier();
-  dispatch(commands, kernels_.get(Stage::blur), {&out_.pixels, &out_.radiance});
+  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
+           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
   commands.timestamp("blur");
 }
 
 void FrameJob::record_encode(vk::Commands& commands) {
   commands.barrier();
-  dispatch(commands, kernels_.get(Stage::encode), {&out_.radiance, &out_.wavefronts, &out_.display});
+  dispatch(commands, kernels_.get(is_map(config_.mode) ? Stage::colour : Stage::encode),
+           {is_map(config_.mode) ? &out_.wavefronts : &out_.radiance, &out_.display});
   commands.timestamp("encode");
 }
 
@@ -139,7 +148,7 @@ void FrameJob::record_sample(vk::Commands& commands, int index) {
 
 // The view of data_.view.
 void FrameJob::dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; };
+  const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kGroup - 1) / kGroup; };
   commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
 }
 

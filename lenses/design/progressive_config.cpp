@@ -21,7 +21,8 @@ std::string text(double value) {
 }
 
 void require(const char* field, double value, double lo, double hi, double unit, const std::string& unit_name) {
-  if (value >= lo && value <= hi) return;
+  const double rounding = 1e-12 * hi;  // 18 mm read as 18 * 1e-3 m
+  if (value >= lo - rounding && value <= hi + rounding) return;
   throw tracking::InputError("progressive", field,
                              "is " + text(value / unit) + unit_name + "; " + text(lo / unit) + " to " +
                                  text(hi / unit) + unit_name + " is allowed");

@@ -8,9 +8,9 @@
 namespace lenses {
 namespace {
 
-// How far the centre may miss height 0 and slope 0 counts as 1 D would; rigid motions cost nothing else, so that any
-// such price holds it exactly.
-constexpr double kPinnedHeight = 1e-6, kPinnedSlope = 1e-3;
+// Height (m) and slope at the centre that cost as much as 1 D at one site. Shifts change nothing else and tilts little,
+// so that these prices hold the centre to a small part of a picometre and of a nanoradian.
+constexpr double kPinnedHeight = 1e-6, kPinnedSlope = 1e-6;
 
 std::vector<double> gauss_points(std::span<const double> knots) {
   const Cells cells = cells_of(knots);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lenses/design/progressive.hpp"
 #include "lenses/lens.hpp"
 
 namespace lenses {
@@ -27,18 +28,13 @@ class DesignError : public std::runtime_error {
 
 enum class LensDesign { single_vision, bifocal, progressive, contact };
 enum class FrontDesign { spherical, aspheric };
-// Of a toric surface's two sections the one that is turned about an axis: the flatter (tyre) or the steeper (barrel).
+// Of a toric surface's two sections the arc that is turned about an axis: the steeper (tyre) or the flatter (barrel).
 enum class ToricForm { tyre, barrel };
 // How a lens gets prism: its front tilted against its back, or the whole lens moved aside (Prentice's rule).
 enum class PrismBy { tilt, decentration };
 // Flat-top of 28 mm, round of 24 mm, a segment over the whole width.
 enum class SegmentShape { ft28, r24, executive };
 enum class ContactKind { soft, rigid };
-enum class ProgressiveSurface { eye_side, object_side };
-
-struct ThicknessRule {
-  double minimum_centre = 0.0012, minimum_edge = 0.001;  // m
-};
 
 struct LensRequest {
   Prescription prescription;
@@ -49,10 +45,10 @@ struct LensRequest {
   FrontDesign front = FrontDesign::spherical;
   ToricForm toric = ToricForm::tyre;
   PrismBy prism_by = PrismBy::tilt;
-  bool prism_thinning = false;                                 // progressive: 2/3 of the addition, base down
-  std::optional<double> centre_thickness, diameter;            // m; absent: by rule
-  std::optional<double> minimum_centre_thickness, minimum_edge_thickness;  // m; absent: ThicknessRule, thinner for contact lenses
-  std::vector<glm::dvec2> outline;                             // m, lens axes; empty: round
+  bool prism_thinning = false;                       // progressive: 2/3 of the addition, base down
+  std::optional<double> centre_thickness, diameter;  // m; absent: by rule
+  std::optional<double> minimum_centre_thickness, minimum_edge_thickness;  // m; absent: by rule
+  std::vector<glm::dvec2> outline;                                         // m, lens axes; empty: round
 
   SegmentShape segment = SegmentShape::ft28;
   double segment_top = -0.005;  // y of the segment's highest point, m
@@ -61,7 +57,7 @@ struct LensRequest {
   ContactKind contact = ContactKind::soft;
   std::optional<double> back_radius;  // contact: m; absent: by kind
 
-  ProgressiveSurface progressive_surface = ProgressiveSurface::eye_side;
+  ProgressiveConfig::Face progressive_face = ProgressiveConfig::Face::eye_side;
   double corridor_length = 0.014;  // fitting cross to near point, m
 
   Fit fit{.vertex_distance = 0.013, .pantoscopic_tilt = 8.0 * 0.017453292519943295, .wrap = 5.0 * 0.017453292519943295};

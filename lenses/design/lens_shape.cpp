@@ -85,9 +85,7 @@ f64::SurfacePoint PlacedSurface::at(const glm::dvec2& xy) const {
 }
 
 LensShape::LensShape(Lens lens)
-    : lens_(std::move(lens)),
-      front_(lens_.front, lens_.front_placement),
-      back_(lens_.back, lens_.back_placement) {}
+    : lens_(std::move(lens)), front_(lens_.front, lens_.front_placement), back_(lens_.back, lens_.back_placement) {}
 
 f64::SurfacePoint LensShape::front(const glm::dvec2& xy) const {
   f64::SurfacePoint point = front_.at(xy);

@@ -8,12 +8,12 @@
 namespace lenses {
 
 struct DesignedLens {
-  Lens lens;                // lens.order is set
-  Prescription verification;  // what a lensmeter reads at the reference points
-  Prescription worn;        // what the eye gets, referred to the refraction's vertex
-  double base_curve = 0.0;  // D
+  Lens lens;                                        // lens.order is set
+  Prescription verification;                        // what a lensmeter reads at the reference points
+  Prescription worn;                                // what the eye gets, referred to the refraction's vertex
+  double base_curve = 0.0;                          // D
   double thinnest_edge = 0.0, thickest_edge = 0.0;  // m, over the outline
-  double volume = 0.0;      // m^3, within the outline
+  double volume = 0.0;                              // m^3, within the outline
 };
 
 // Throws DesignError where the lens cannot be made.

@@ -13,5 +13,6 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_bench_command(CLI::App& program);
 [[nodiscard]] Action add_trace_command(CLI::App& program);
 [[nodiscard]] Action add_lens_command(CLI::App& program);
+[[nodiscard]] Action add_lens_progressive(CLI::App& lens);
 
 }  // namespace app

@@ -29,7 +29,7 @@ ProgressiveTarget::Place ProgressiveTarget::place(const glm::dvec2& p) const {
 // (Minkwitz), the longer its flanks, the gentler the zones' ends.
 double ProgressiveTarget::rise(double below) const {
   constexpr double kAboveCross = 0.0015, kAboveNear = 0.0005;
-  const double flank = between(0.4, 0.25);
+  const double flank = between(0.45, 0.2);
   const double t = std::clamp((below + kAboveCross) / (config_.corridor_length - kAboveNear + kAboveCross), 0.0, 1.0);
   const double top = 1.0 / (1.0 - flank), s = std::min(t, 1.0 - t);
   const double half = s < flank ? 0.5 * top * s * s / flank : top * (s - 0.5 * flank);
@@ -49,7 +49,7 @@ double ProgressiveTarget::in_zones(const Place& place) const {
 
 // The line goes on for a little beyond both points, so that they do not lie on the brink.
 double ProgressiveTarget::on_line(const Place& place) const {
-  constexpr double kHalfWidth = 0.0008, kTransition = 0.003, kAboveDistance = 0.002, kBelowNear = 0.004;
+  constexpr double kHalfWidth = 0.0012, kTransition = 0.004, kAboveDistance = 0.002, kBelowNear = 0.004;
   const double above = config_.fitting_cross - config_.distance_point - kAboveDistance - place.below;
   const double beneath = place.below - config_.corridor_length - kBelowNear;
   return belonging(kHalfWidth - std::hypot(place.aside, std::max({0.0, above, beneath})), kTransition);
@@ -57,15 +57,16 @@ double ProgressiveTarget::on_line(const Place& place) const {
 
 DesignTarget ProgressiveTarget::at(const glm::dvec2& p) const {
   // Cylinder at the sides costs 1. Power hardly matters there; on the line neither power nor cylinder may give way.
-  constexpr double kPowerAtSides = 0.03, kOnLine = 300.0, kBeyondRim = 0.02, kRim = 0.003;
+  constexpr double kPowerAtSides = 0.03, kPowerOnLine = 150.0, kCylinderOnLine = 300.0;
+  constexpr double kBeyondRim = 0.02, kRim = 0.003;
   const Place here = place(p);
-  const double zone = in_zones(here), line = kOnLine * on_line(here);
+  const double zone = in_zones(here), line = on_line(here);
   // The net's corners are no part of the lens, but must go on from it.
   const double rim = smooth((0.5 * config_.diameter + kRim - glm::length(p)) / kRim);
   const double share = kBeyondRim + (1.0 - kBeyondRim) * rim;
   return {distance_ + addition_ * rise(here.below),
-          share * (kPowerAtSides * std::pow(between(20.0, 30.0) / kPowerAtSides, zone) + line),
-          share * (std::pow(between(5.0, 15.0), zone) + line)};
+          share * (kPowerAtSides * std::pow(between(30.0, 60.0) / kPowerAtSides, zone) + kPowerOnLine * line),
+          share * (std::pow(between(4.0, 10.0), zone) + kCylinderOnLine * line)};
 }
 
 }  // namespace lenses

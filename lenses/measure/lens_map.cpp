@@ -1,7 +1,5 @@
 #include "lenses/measure/lens_map.hpp"
 
-#include "lenses/measure/lens_outline.hpp"
-
 namespace lenses {
 
 LensMap lens_map(const Lens& lens, const Lensmeter& lensmeter, std::size_t points, const Progress& progress) {
@@ -12,7 +10,6 @@ LensMap lens_map(const Lens& lens, const Lensmeter& lensmeter, std::size_t point
     const glm::dvec2 at = map.grid.at(i);
     LensMapReading reading;
     reading.back = lensmeter.read(LensSide::back, at);
-    reading.zone = zone_of(lens, at, reading.back.far_point);
     if (dot(at, at) <= reach) {
       reading.thickness = lensmeter.thickness(at).value_or(reading.thickness);
     }

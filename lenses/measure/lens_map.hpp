@@ -17,7 +17,6 @@ using Progress = std::function<void(double done)>;
 struct LensMapReading {
   LensmeterReading back;
   double thickness = std::numeric_limits<double>::quiet_NaN();  // m, along the lens axis; none outside the blank
-  int zone = 0;                                                 // see zone_of
 };
 
 struct LensMap {

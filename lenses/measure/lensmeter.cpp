@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "lenses/measure/zone.hpp"
+
 namespace lenses {
 namespace {
 
@@ -97,6 +99,7 @@ LensmeterReading Lensmeter::read_back(const glm::dvec2& point) const {
   reading.power = symmetric(f64::vergence_matrix(f64::lens_transfer(lens, path, axes.h, axes.v), 0.0, regular));
   reading.prism = prism_dioptres(path.direction_object, beam, axes);
   reading.far_point = glm::dvec2(path.front_hit);
+  reading.zone = zone_of(model_, point, reading.far_point);
   if (!regular || !finite(reading)) {
     reading.status = RayStatus::singular;
   }
@@ -148,6 +151,7 @@ LensmeterReading Lensmeter::read_front(const glm::dvec2& point) const {
   reading.power = symmetric(turn * wave * glm::transpose(turn));
   reading.prism = -prism_dioptres(path.direction, beam, axes);
   reading.far_point = glm::dvec2(path.back_hit);
+  reading.zone = zone_of(model_, reading.far_point, point);
   reading.status = finite(reading) ? RayStatus::ok : RayStatus::singular;
   return reading;
 }

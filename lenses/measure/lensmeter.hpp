@@ -27,6 +27,7 @@ struct LensmeterReading {
   // wearer's right and up in the same plane. Prism dioptres.
   glm::dvec2 prism{0.0};
   glm::dvec2 far_point{0.0};  // where the beam meets the other surface, lens axes, m
+  int zone = 0;               // see zone_of
 };
 
 class Lensmeter {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lenses/measure/lens_outline.hpp"
+#include "lenses/measure/zone.hpp"
 
 namespace lenses {
 namespace {
@@ -39,6 +39,7 @@ WornReading WornLens::read(const glm::dvec3& gaze, double object_vergence) const
   }
   reading.back_point = glm::dvec2(line.path.back_hit);
   reading.front_point = glm::dvec2(line.path.front_hit);
+  reading.zone = zone_of(model_, reading.back_point, reading.front_point);
   // From the vertex sphere instead of the pupil: a focus in the pupil is then no special case.
   f64::RayTransfer m = f64::sight_line_transfer(lens, line);
   m.b -= pupil_to_sphere_ * m.a;
@@ -92,7 +93,6 @@ WornMap worn_map(const Lens& lens, Side side, const Eye& eye, const WornMapConfi
     reading.object_vergence =
         smooth_step((map.far_pitch - angles.y) / (map.far_pitch - map.near_pitch)) / config.working_distance;
     reading.working = worn.read(gaze, reading.object_vergence);
-    reading.zone = zone_of(lens, reading.far.back_point, reading.far.front_point);
     map.readings.push_back(reading);
     if (progress && i % map.grid.columns == 0) {
       progress(static_cast<double>(i) / static_cast<double>(map.grid.count()));

@@ -20,6 +20,7 @@ struct WornReading {
   // Deviation of the line of sight by the lens, 100 tan(angle), towards the base; right and up of the turned eye.
   glm::dvec2 prism{0.0};
   glm::dvec2 back_point{0.0}, front_point{0.0};  // m, lens axes
+  int zone = 0;                                  // see zone_of
 };
 
 class WornLens {
@@ -55,7 +56,6 @@ struct WornMapReading {
   WornReading far;               // object at infinity
   double object_vergence = 0.0;  // 1/m, of this gaze's working distance
   WornReading working;
-  int zone = 0;  // see zone_of
 };
 
 struct WornMap {

@@ -124,9 +124,8 @@ void write_report(const std::filesystem::path& folder, const MeasureOptions& opt
   if (::isatty(STDERR_FILENO) != 0) {
     std::fprintf(stderr, "\r%-40s\r", "");
   }
-  const std::vector<NamedPicture> pictures =
-      measure_pictures(report, lens_map, worn_map, lenses::WornLens(report.lens, report.side, eye),
-                       options.view == "examiner" ? ViewedBy::examiner : ViewedBy::wearer);
+  const std::vector<NamedPicture> pictures = measure_pictures(
+      report, lens_map, worn_map, eye, options.view == "examiner" ? ViewedBy::examiner : ViewedBy::wearer);
   write_text(folder / "readings.csv", readings_csv(report));
   if (report.verdict) {
     write_text(folder / "verdict.csv", verdict_csv(*report.verdict));

@@ -15,13 +15,22 @@ using lenses::RayStatus;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPowerStep = 0.25, kPrismStep = 0.5, kThicknessStep = 0.25;  // D, prism dioptres, mm
+constexpr double kPowerStep = 0.25, kPrismStep = 1.0, kThicknessStep = 0.25;  // D, prism dioptres, mm
 constexpr double kLeastCylinder = 0.12;                                       // with an axis worth a stroke, D
 
-using ToPlot = std::function<glm::dvec2(const glm::dvec2&)>;  // from a point of the lens
+// From a point of the back (reference points, outline) and of the front (segments) to its place in the plot.
+struct ToPlot {
+  std::function<glm::dvec2(const glm::dvec2&)> from_back, from_front;
+};
 
 const char* view_words(ViewedBy viewed_by) {
   return viewed_by == ViewedBy::wearer ? "as the wearer sees it" : "as the examiner sees it";
+}
+
+// As much of the file's name, without its folders, as a picture has room for.
+std::string short_name(const MeasureReport& report) {
+  constexpr std::size_t kRoom = 34;
+  return report.source.substr(report.source.rfind('/') + 1).substr(0, kRoom);
 }
 
 void set_sides(MapPicture& map, const MeasureReport& report, ViewedBy viewed_by) {
@@ -31,55 +40,77 @@ void set_sides(MapPicture& map, const MeasureReport& report, ViewedBy viewed_by)
   map.mirrored = viewed_by == ViewedBy::examiner;
 }
 
+// Straight edges of the lens may be curves in the plot.
+std::vector<glm::dvec2> plotted(const std::vector<glm::dvec2>& polygon,
+                                const std::function<glm::dvec2(const glm::dvec2&)>& to_plot) {
+  const int parts = polygon.size() < 100 ? 16 : 1;
+  std::vector<glm::dvec2> line;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    for (int k = 0; k < parts; ++k) {
+      line.push_back(to_plot(a + (b - a) * (static_cast<double>(k) / parts)));
+    }
+  }
+  return line;
+}
+
 void add_lens_marks(MapPicture& map, const lenses::Lens& lens, const ToPlot& to_plot) {
   const lenses::ReferencePoints& points = lens.reference_points;
   const auto add = [&](MapMark::Shape shape, const std::optional<glm::dvec2>& at, const char* label) {
     if (at) {
-      map.marks.push_back({shape, to_plot(*at), label});
+      map.marks.push_back({shape, to_plot.from_back(*at), label});
     }
   };
   add(MapMark::Shape::cross, points.fitting_cross, "");
   add(MapMark::Shape::circle, points.distance, "D");
   add(MapMark::Shape::circle, points.near, "N");
   add(MapMark::Shape::dot, lenses::prism_point(lens), "P");
-  const auto add_line = [&](const std::vector<glm::dvec2>& polygon) {
-    std::vector<glm::dvec2> line;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      // Straight edges of the lens are curves over gaze.
-      constexpr int kParts = 16;
-      const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      for (int k = 0; k < (polygon.size() < 100 ? kParts : 1); ++k) {
-        line.push_back(to_plot(a + (b - a) * (static_cast<double>(k) / kParts)));
-      }
-    }
-    map.outlines.push_back(std::move(line));
-  };
   if (!lens.outline.empty()) {
-    add_line(lens.outline);
+    map.outlines.push_back(plotted(lens.outline, to_plot.from_back));
   }
-  for (const lenses::Surface* surface : {&lens.back, &lens.front}) {
-    if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(surface)) {
-      add_line(segmented->boundary);
-    }
+  // Numbers as zone_of (lenses/measure/zone.hpp) gives them.
+  if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(&lens.back)) {
+    map.zones.push_back({plotted(segmented->boundary, to_plot.from_back), 1});
+  }
+  if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(&lens.front)) {
+    map.zones.push_back({plotted(segmented->boundary, to_plot.from_front), 2});
   }
 }
 
 // What the scale is fitted to: values inside the outline, or the lens where there is none.
 bool counts(const lenses::Lens& lens, const glm::dvec2& point) {
-  bool in = lens.outline.empty();
-  for (std::size_t i = 0; i < lens.outline.size(); ++i) {
-    const glm::dvec2 &a = lens.outline[i], &b = lens.outline[(i + 1) % lens.outline.size()];
-    if ((a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
-      in = !in;
+  return lens.outline.empty() || lenses::inside_polygon(lens.outline, point);
+}
+
+// The lens as it would be without segments.
+lenses::Lens without_segments(lenses::Lens lens) {
+  for (lenses::Surface* surface : {&lens.front, &lens.back}) {
+    if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(surface)) {
+      const lenses::BasicSurface base = segmented->base;
+      *surface = std::visit([](const auto& shape) { return lenses::Surface(shape); }, base);
     }
   }
-  return in;
+  return lens;
+}
+
+// Where a lensmeter's beam that meets the front at a point meets the back.
+glm::dvec2 back_of_front_point(const lenses::Lensmeter& lensmeter, const glm::dvec2& point) {
+  constexpr int kSteps = 12;
+  glm::dvec2 back = point;
+  for (int i = 0; i < kSteps; ++i) {
+    const lenses::LensmeterReading reading = lensmeter.read(lenses::LensSide::back, back);
+    if (reading.status != RayStatus::ok) {
+      return point;
+    }
+    back += point - reading.far_point;
+  }
+  return back;
 }
 
 class LensPictures {
  public:
   LensPictures(const MeasureReport& report, const lenses::LensMap& map, ViewedBy viewed_by)
-      : report_(report), map_(map), viewed_by_(viewed_by) {}
+      : report_(report), map_(map), viewed_by_(viewed_by), base_(without_segments(report.lens)) {}
 
   [[nodiscard]] MapPicture picture(const std::string& title, const std::string& unit, double step,
                                    const std::function<double(const lenses::LensMapReading&)>& value) const {
@@ -100,10 +131,9 @@ class LensPictures {
     }
     map.scale = map_scale(counted, step);
     set_note(map, unit);
-    const auto to_mm = [](const glm::dvec2& p) { return 1e3 * p; };
-    for (const glm::dvec2& p : lenses::blank_of(report_.lens)) {
-      map.region.push_back(to_mm(p));
-    }
+    const ToPlot to_mm{[](const glm::dvec2& p) { return 1e3 * p; },
+                       [&](const glm::dvec2& p) { return 1e3 * back_of_front_point(base_, p); }};
+    map.region = plotted(lenses::blank_of(report_.lens), to_mm.from_back);
     add_lens_marks(map, report_.lens, to_mm);
     return map;
   }
@@ -125,20 +155,25 @@ class LensPictures {
   }
 
   void set_note(MapPicture& map, const std::string& unit) const {
-    map.note = format("%g %s a line; %s", map.scale.step, unit.c_str(), view_words(viewed_by_));
+    map.note = format("%g %s a line, %s; %s", map.scale.step, unit.c_str(), view_words(viewed_by_),
+                      short_name(report_).c_str());
   }
 
  private:
   const MeasureReport& report_;
   const lenses::LensMap& map_;
   ViewedBy viewed_by_;
+  lenses::Lensmeter base_;
 };
 
 class WornPictures {
  public:
-  WornPictures(const MeasureReport& report, const lenses::WornMap& map, const lenses::WornLens& worn,
-               ViewedBy viewed_by)
-      : report_(report), map_(map), worn_(worn), viewed_by_(viewed_by) {}
+  WornPictures(const MeasureReport& report, const lenses::WornMap& map, const lenses::Eye& eye, ViewedBy viewed_by)
+      : report_(report),
+        map_(map),
+        worn_(report.lens, report.side, eye),
+        base_(without_segments(report.lens), report.side, eye),
+        viewed_by_(viewed_by) {}
 
   [[nodiscard]] MapPicture picture(const std::string& title,
                                    const std::function<double(const lenses::WornMapReading&)>& value) const {
@@ -159,11 +194,11 @@ class WornPictures {
       }
     }
     map.scale = map_scale(counted, kPowerStep);
-    map.note = format("%g D a line; %s", map.scale.step, view_words(viewed_by_));
-    const auto to_gaze = [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(worn_.gaze_through(p)); };
-    for (const glm::dvec2& p : lenses::blank_of(report_.lens)) {
-      map.region.push_back(to_gaze(p));
-    }
+    map.note = format("%g D a line, %s; %s", map.scale.step, view_words(viewed_by_), short_name(report_).c_str());
+    const ToPlot to_gaze{
+        [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(worn_.gaze_through(p)); },
+        [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(base_.gaze_through_front(p)); }};
+    map.region = plotted(lenses::blank_of(report_.lens), to_gaze.from_back);
     add_lens_marks(map, report_.lens, to_gaze);
     return map;
   }
@@ -171,7 +206,7 @@ class WornPictures {
  private:
   const MeasureReport& report_;
   const lenses::WornMap& map_;
-  const lenses::WornLens& worn_;
+  lenses::WornLens worn_, base_;
   ViewedBy viewed_by_;
 };
 
@@ -186,7 +221,7 @@ double if_ok(const lenses::LensmeterReading& reading, double value) {
 }  // namespace
 
 std::vector<NamedPicture> measure_pictures(const MeasureReport& report, const lenses::LensMap& lens_map,
-                                           const lenses::WornMap& worn_map, const lenses::WornLens& worn,
+                                           const lenses::WornMap& worn_map, const lenses::Eye& eye,
                                            ViewedBy viewed_by) {
   std::vector<NamedPicture> pictures;
   const auto add = [&](const std::string& file, const std::string& caption, const MapPicture& map) {
@@ -202,13 +237,13 @@ std::vector<NamedPicture> measure_pictures(const MeasureReport& report, const le
   add("cylinder", "Cylinder over the lens; short lines lie along its axis.", cylinder);
   MapPicture prism = on_lens.picture("Prism", "pd", kPrismStep,
                                      [](const auto& r) { return if_ok(r.back, glm::length(r.back.prism)); });
-  prism.decimals = 1;
+  prism.decimals = 0;
   add("prism", "Prism over the lens, prism dioptres.", prism);
   add("thickness", "Thickness along the lens axis.",
       on_lens.picture("Thickness along the axis", "mm", kThicknessStep,
                       [](const auto& r) { return 1e3 * r.thickness; }));
 
-  const WornPictures as_worn(report, worn_map, worn, viewed_by);
+  const WornPictures as_worn(report, worn_map, eye, viewed_by);
   add("worn_power", "Mean power as worn by the turning eye, object at infinity, at the vertex sphere.",
       as_worn.picture("As worn, far: mean power",
                       [](const auto& r) { return if_ok(r.far, lenses::mean_power(r.far.power)); }));

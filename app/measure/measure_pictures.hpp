@@ -22,7 +22,7 @@ struct NamedPicture {
 // Power, cylinder, prism and thickness over the lens; power and astigmatism over the turning eye's gaze, for far
 // objects and at each gaze's working distance.
 [[nodiscard]] std::vector<NamedPicture> measure_pictures(const MeasureReport& report, const lenses::LensMap& lens_map,
-                                                         const lenses::WornMap& worn_map, const lenses::WornLens& worn,
+                                                         const lenses::WornMap& worn_map, const lenses::Eye& eye,
                                                          ViewedBy viewed_by);
 
 }  // namespace app

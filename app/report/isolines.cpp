@@ -33,20 +33,42 @@ Cell cell_at(const lenses::Grid& grid, std::size_t column, std::size_t row) {
   return {{at, at + 1, above + 1, above}, {2 * at, 2 * (at + 1) + 1, 2 * above, 2 * at + 1}};
 }
 
-bool usable(const GridField& field, const Cell& cell, double flat) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const std::size_t i : cell.corner) {
-    if (!std::isfinite(field.values[i]) || field.zone(i) != field.zone(cell.corner[0])) {
-      return false;
+bool whole(const GridField& field, const Cell& cell) {
+  return std::ranges::all_of(cell.corner, [&](std::size_t i) {
+    return std::isfinite(field.values[i]) && field.zone(i) == field.zone(cell.corner[0]);
+  });
+}
+
+bool crossed(const GridField& field, const Cell& cell, double level) {
+  const auto above = std::ranges::count_if(cell.corner, [&](std::size_t i) { return field.values[i] >= level; });
+  return above > 0 && above < 4;
+}
+
+// Calls f with the index of every sample within `reach` of one.
+template <class F>
+void around(const lenses::Grid& grid, std::size_t index, std::size_t reach, const F& f) {
+  const std::size_t column = index % grid.columns, row = index / grid.columns;
+  for (std::size_t r = row - std::min(row, reach); r <= std::min(row + reach, grid.rows - 1); ++r) {
+    for (std::size_t c = column - std::min(column, reach); c <= std::min(column + reach, grid.columns - 1); ++c) {
+      f(r * grid.columns + c);
     }
-    low = std::min(low, field.values[i]);
-    high = std::max(high, field.values[i]);
   }
-  return high - low > flat;
+}
+
+bool more_than_a_ripple(const GridField& field, const Cell& cell, double level, double ripple) {
+  const std::size_t reach = std::max<std::size_t>(2, field.grid.columns / 16);
+  bool above = false, below = false;
+  around(field.grid, cell.corner[0], reach, [&](std::size_t i) {
+    if (field.zone(i) == field.zone(cell.corner[0])) {
+      above = above || field.values[i] > level + ripple;
+      below = below || field.values[i] < level - ripple;
+    }
+  });
+  return above && below;
 }
 
 void add_pieces(const GridField& field, const Cell& cell, double level, Pieces& pieces) {
-  std::vector<std::size_t> crossed;  // in order around the cell
+  std::vector<std::size_t> ends;  // in order around the cell
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t a = cell.corner[k], b = cell.corner[(k + 1) % 4];
     const double va = field.values[a], vb = field.values[b];
@@ -55,11 +77,11 @@ void add_pieces(const GridField& field, const Cell& cell, double level, Pieces& 
     }
     const double part = (level - va) / (vb - va);
     pieces.place[cell.edge[k]] = field.grid.at(a) + part * (field.grid.at(b) - field.grid.at(a));
-    crossed.push_back(cell.edge[k]);
+    ends.push_back(cell.edge[k]);
   }
-  if (crossed.size() == 2) {
-    pieces.list.push_back({crossed[0], crossed[1]});
-  } else if (crossed.size() == 4) {
+  if (ends.size() == 2) {
+    pieces.list.push_back({ends[0], ends[1]});
+  } else if (ends.size() == 4) {
     // A saddle: its middle says which corners are joined.
     double mean = 0.0;
     for (const std::size_t i : cell.corner) {
@@ -67,8 +89,8 @@ void add_pieces(const GridField& field, const Cell& cell, double level, Pieces& 
     }
     const bool joins_first = (mean >= level) == (field.values[cell.corner[0]] >= level);
     const std::size_t shift = joins_first ? 0 : 1;
-    pieces.list.push_back({crossed[shift], crossed[shift + 1]});
-    pieces.list.push_back({crossed[shift + 2], crossed[(shift + 3) % 4]});
+    pieces.list.push_back({ends[shift], ends[shift + 1]});
+    pieces.list.push_back({ends[shift + 2], ends[(shift + 3) % 4]});
   }
 }
 
@@ -117,7 +139,7 @@ std::vector<Isoline> joined(const Pieces& pieces) {
 
 }  // namespace
 
-double value_at(const GridField& field, const glm::dvec2& point) {
+double value_at(const GridField& field, const glm::dvec2& point, const ZoneAt& zone_at) {
   const lenses::Grid& grid = field.grid;
   const glm::dvec2 place = (point - grid.low) / grid.step();
   const double columns = static_cast<double>(grid.columns - 1), rows = static_cast<double>(grid.rows - 1);
@@ -128,26 +150,47 @@ double value_at(const GridField& field, const glm::dvec2& point) {
   const double fx = place.x - column, fy = place.y - row;
   const Cell cell = cell_at(grid, static_cast<std::size_t>(column), static_cast<std::size_t>(row));
   const std::array<double, 4> weight{(1 - fx) * (1 - fy), fx * (1 - fy), fx * fy, (1 - fx) * fy};
-  double sum = 0.0, heaviest = -1.0, nearest = kNone;
-  bool whole = true;
+  const bool mixed =
+      std::ranges::any_of(cell.corner, [&](std::size_t i) { return field.zone(i) != field.zone(cell.corner[0]); });
+  const int zone = mixed && zone_at ? zone_at(point) : field.zone(cell.corner[0]);
+  double sum = 0.0, total = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     const double value = field.values[cell.corner[k]];
-    whole = whole && std::isfinite(value) && field.zone(cell.corner[k]) == field.zone(cell.corner[0]);
-    sum += weight[k] * value;
-    if (std::isfinite(value) && weight[k] > heaviest) {
-      heaviest = weight[k];
-      nearest = value;
+    if (std::isfinite(value) && field.zone(cell.corner[k]) == zone) {
+      constexpr double kLeast = 1e-9;  // so that a corner alone counts, however far
+      sum += (weight[k] + kLeast) * value;
+      total += weight[k] + kLeast;
     }
   }
-  return whole ? sum : nearest;
+  return total > 0.0 ? sum / total : kNone;
 }
 
-std::vector<Isoline> isolines(const GridField& field, double level, double flat) {
+GridField grown(GridField field, int passes) {
+  for (int pass = 0; pass < passes; ++pass) {
+    const std::vector<double> before = field.values;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (std::isfinite(before[i])) {
+        continue;
+      }
+      double sum = 0.0, count = 0.0;
+      around(field.grid, i, 1, [&](std::size_t k) {
+        if (std::isfinite(before[k]) && field.zone(k) == field.zone(i)) {
+          sum += before[k];
+          count += 1.0;
+        }
+      });
+      field.values[i] = count > 0.0 ? sum / count : before[i];
+    }
+  }
+  return field;
+}
+
+std::vector<Isoline> isolines(const GridField& field, double level, double ripple) {
   Pieces pieces;
   for (std::size_t row = 0; row + 1 < field.grid.rows; ++row) {
     for (std::size_t column = 0; column + 1 < field.grid.columns; ++column) {
       const Cell cell = cell_at(field.grid, column, row);
-      if (usable(field, cell, flat)) {
+      if (whole(field, cell) && crossed(field, cell, level) && more_than_a_ripple(field, cell, level, ripple)) {
         add_pieces(field, cell, level, pieces);
       }
     }

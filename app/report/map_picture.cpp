@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/report/text.hpp"
+#include "lenses/measure/lens_outline.hpp"
 #include "render/image/colour_bar.hpp"
 #include "render/image/draw.hpp"
 #include "render/image/gpu/colour_map.h"
@@ -49,7 +50,9 @@ void draw_text_beside(Image8& image, int x, int y, const std::string& text, Rgb 
 class Drawing {
  public:
   explicit Drawing(const MapPicture& map)
-      : map_(map), image_(render::black_image(kLeft + kPlot + kBar, kTop + kPlot + kBottom)) {
+      : map_(map),
+        filled_(grown(map.field, 3)),
+        image_(render::black_image(kLeft + kPlot + kBar, kTop + kPlot + kBottom)) {
     render::fill_rect(image_, {0, 0, image_.width, image_.height}, kGround);
     const glm::dvec2 size = map.field.grid.high - map.field.grid.low;
     per_pixel_ = std::max(size.x, size.y) / kPlot;
@@ -62,6 +65,9 @@ class Drawing {
     draw_isolines();
     for (const auto& outline : map_.outlines) {
       draw_polygon(outline, 3.0, kInk);
+    }
+    for (const MapZone& zone : map_.zones) {
+      draw_polygon(zone.edge, 2.0, kInk);
     }
     draw_marks();
     draw_axes();
@@ -86,13 +92,22 @@ class Drawing {
         const int first = std::max(kLeft, static_cast<int>(std::ceil(from - 0.5)));
         const int last = std::min(kLeft + kPlot - 1, static_cast<int>(std::floor(to - 0.5)));
         for (int x = first; x <= last; ++x) {
-          const double value = value_at(map_.field, place(x + 0.5, y));
-          render::fill_rect(image_, {x, kTop + row, 1, 1},
-                            std::isfinite(value) ? colour_of(value, map_.scale) : kNoValue);
+          fill_pixel(x, kTop + row);
         }
       }
     }
     draw_polygon(map_.region, 1.5, kFrame);
+  }
+
+  void fill_pixel(int x, int y) {
+    const double value = value_at(filled_, place(x + 0.5, y + 0.5), [&](const glm::dvec2& point) {
+      int zone = 0;
+      for (const MapZone& part : map_.zones) {
+        zone += lenses::inside_polygon(part.edge, point) ? part.number : 0;
+      }
+      return zone;
+    });
+    render::fill_rect(image_, {x, y, 1, 1}, std::isfinite(value) ? colour_of(value, map_.scale) : kNoValue);
   }
 
   // The parts of a row of pixels within the region, even-odd.
@@ -130,11 +145,11 @@ class Drawing {
   }
 
   void draw_strokes() {
-    constexpr double kHalf = 9.0;  // px
+    constexpr double kHalf = 8.0, kThick = 2.5;  // px
     for (const MapStroke& stroke : map_.strokes) {
       const glm::dvec2 along = kHalf * per_pixel_ * glm::dvec2(std::cos(stroke.angle), std::sin(stroke.angle));
       const double value = value_at(map_.field, stroke.at);
-      line(stroke.at - along, stroke.at + along, 1.5, ink_on(value, map_.scale));
+      line(stroke.at - along, stroke.at + along, kThick, ink_on(value, map_.scale));
     }
   }
 
@@ -147,7 +162,8 @@ class Drawing {
     const int count = static_cast<int>(std::lround((map_.scale.high - map_.scale.low) / map_.scale.step));
     for (int i = 0; i <= count; ++i) {
       const double value = map_.scale.low + i * map_.scale.step;
-      levels.push_back({value, isolines(map_.field, value, 1e-5 * map_.scale.step)});
+      constexpr double kRipple = 0.08;  // of a step: 0.02 D where lines are 0.25 D apart
+      levels.push_back({value, isolines(map_.field, value, kRipple * map_.scale.step)});
     }
     for (const Level& level : levels) {
       for (const Isoline& isoline : level.lines) {
@@ -156,7 +172,11 @@ class Drawing {
         }
       }
     }
-    // Labels last, so that no line runs through one.
+    // Labels last, so that no line runs through one; marks are drawn over all.
+    for (const MapMark& mark : map_.marks) {
+      const Point p = pixel(mark.at);
+      taken_.push_back({static_cast<int>(p.x) - 12, static_cast<int>(p.y) - 20, 40, 34});
+    }
     for (const Level& level : levels) {
       for (const Isoline& isoline : level.lines) {
         label_isoline(isoline, level.value);
@@ -187,6 +207,12 @@ class Drawing {
         continue;
       }
       taken_.push_back(box);
+      // A line that ran into the number would look like its sign.
+      for (int y = box.y + 2; y < box.y + box.height - 2; ++y) {
+        for (int x = box.x; x < box.x + box.width; ++x) {
+          fill_pixel(x, y);
+        }
+      }
       const Rgb ink = ink_on(value, map_.scale);
       draw_text_beside(image_, box.x + 5, box.y + 4, text, ink, colour_of(value, map_.scale));
       return;
@@ -252,12 +278,13 @@ class Drawing {
                       &at_right = map_.mirrored ? map_.left : map_.right;
     render::draw_text(image_, kLeft, foot, kText, at_left, kInk);
     render::draw_text(image_, kLeft + kPlot - render::text_width(at_right, kText), foot, kText, at_right, kInk);
-    render::draw_text(image_, 10, kTop - 24, kText, map_.y_label, kInk);
+    draw_text_beside(image_, kLeft + 8, kTop + 8, map_.y_label, kInk, kGround);
     render::draw_colour_bar(image_, {kLeft + kPlot + 14, kTop - 4, kBar - 18, kPlot + 14}, render::gpu::kPerceptualMap,
                             map_.scale.low, map_.scale.high, "", map_.unit, {kInk, kGround, 1.0, kText});
   }
 
   const MapPicture& map_;
+  GridField filled_;
   Image8 image_;
   double per_pixel_;
   glm::dvec2 middle_;

@@ -18,6 +18,12 @@ struct MapMark {
   std::string label;
 };
 
+// A part of the map in which other values hold than beside it: the edge of a segment.
+struct MapZone {
+  std::vector<glm::dvec2> edge;  // a closed polygon
+  int number = 0;                // the zones of the samples inside; those of overlapping zones add
+};
+
 // A short line through a point, such as a cylinder's axis.
 struct MapStroke {
   glm::dvec2 at{0.0};
@@ -44,6 +50,7 @@ struct MapPicture {
   MapScale scale;
   std::vector<glm::dvec2> region;                 // a polygon; colours fill no more
   std::vector<std::vector<glm::dvec2>> outlines;  // closed polygons
+  std::vector<MapZone> zones;
   std::vector<MapMark> marks;
   std::vector<MapStroke> strokes;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "lenses/lens.hpp"
@@ -13,5 +14,8 @@ namespace lenses {
 
 // The blank's circle as a polygon.
 [[nodiscard]] std::vector<glm::dvec2> blank_of(const Lens& lens);
+
+// Even-odd rule, for a closed polygon of any sense.
+[[nodiscard]] bool inside_polygon(std::span<const glm::dvec2> polygon, const glm::dvec2& point);
 
 }  // namespace lenses

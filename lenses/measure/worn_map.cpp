@@ -65,6 +65,20 @@ glm::dvec3 WornLens::gaze_through(const glm::dvec2& point) const {
   return glm::normalize(place - glm::dvec3(0.0, 0.0, eye_.pupil.y));
 }
 
+glm::dvec3 WornLens::gaze_through_front(const glm::dvec2& point) const {
+  // From back to front a line of sight moves aside by little, and about as much for all around it.
+  constexpr int kSteps = 12;
+  glm::dvec2 back = point;
+  for (int i = 0; i < kSteps; ++i) {
+    const WornReading reading = read(gaze_through(back), 0.0);
+    if (reading.status != RayStatus::ok) {
+      return gaze_through(point);
+    }
+    back += point - reading.front_point;
+  }
+  return gaze_through(back);
+}
+
 glm::dvec2 gaze_angles(const glm::dvec3& gaze) {
   return {std::atan2(gaze.x, -gaze.z), std::asin(std::clamp(gaze.y, -1.0, 1.0))};
 }

@@ -36,6 +36,9 @@ class WornLens {
   // with the eye: the one from the centre of rotation in primary gaze.
   [[nodiscard]] glm::dvec3 gaze_through(const glm::dvec2& point) const;
 
+  // The same for a point of the front surface; where no line of sight reaches it, of the back surface below it.
+  [[nodiscard]] glm::dvec3 gaze_through_front(const glm::dvec2& point) const;
+
  private:
   LensModel model_;
   f64::EyeData eye_;

@@ -131,7 +131,7 @@ void write_report(const std::filesystem::path& folder, const MeasureOptions& opt
     write_text(folder / "verdict.csv", verdict_csv(*report.verdict));
   }
   write_text(folder / "lens_map.csv", lens_map_csv(lens_map, report.form));
-  write_text(folder / "worn_map.csv", worn_map_csv(worn_map, report.form));
+  write_text(folder / "worn_map.csv", worn_map_csv(worn_map, report));
   for (const NamedPicture& picture : pictures) {
     render::write_png(folder / picture.file, picture.image);
   }

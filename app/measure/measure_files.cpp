@@ -72,10 +72,12 @@ std::string lens_map_csv(const lenses::LensMap& map, lenses::CylinderForm form) 
   return csv.text();
 }
 
-std::string worn_map_csv(const lenses::WornMap& map, lenses::CylinderForm form) {
+std::string worn_map_csv(const lenses::WornMap& map, const MeasureReport& report) {
   Csv csv(
-      "yaw_deg,pitch_deg,status,x_mm,y_mm,power_D,sphere_D,cylinder_D,axis_deg,prism_pd,base_deg,"
-      "working_vergence_D,working_status,working_power_D,working_sphere_D,working_cylinder_D,working_axis_deg");
+      "yaw_deg,pitch_deg,status,x_mm,y_mm,power_D,sphere_D,cylinder_D,axis_deg,unwanted_D,prism_pd,base_deg,"
+      "working_vergence_D,working_status,working_power_D,working_sphere_D,working_cylinder_D,working_axis_deg,"
+      "working_unwanted_D");
+  const glm::dvec3 ordered = ordered_power(report);
   for (std::size_t i = 0; i < map.readings.size(); ++i) {
     const lenses::WornMapReading& reading = map.readings[i];
     const bool far = reading.far.status == RayStatus::ok, working = reading.working.status == RayStatus::ok;
@@ -83,11 +85,13 @@ std::string worn_map_csv(const lenses::WornMap& map, lenses::CylinderForm form) 
     csv.add(at.x).add(at.y).add(name(reading.far.status));
     csv.add(if_ok(far, 1e3 * reading.far.back_point.x)).add(if_ok(far, 1e3 * reading.far.back_point.y));
     csv.add(if_ok(far, lenses::mean_power(reading.far.power)));
-    add_power(csv, reading.far.power, form, far);
+    add_power(csv, reading.far.power, report.form, far);
+    csv.add(if_ok(far, lenses::astigmatism(reading.far.power - ordered)));
     add_prism(csv, reading.far.prism, far);
     csv.add(reading.object_vergence).add(name(reading.working.status));
     csv.add(if_ok(working, lenses::mean_power(reading.working.power)));
-    add_power(csv, reading.working.power, form, working);
+    add_power(csv, reading.working.power, report.form, working);
+    csv.add(if_ok(working, lenses::astigmatism(reading.working.power - ordered)));
     csv.end_row();
   }
   return csv.text();

@@ -13,6 +13,7 @@ namespace app {
 [[nodiscard]] std::string readings_csv(const MeasureReport& report);
 [[nodiscard]] std::string verdict_csv(const lenses::Verdict& verdict);
 [[nodiscard]] std::string lens_map_csv(const lenses::LensMap& map, lenses::CylinderForm form);
-[[nodiscard]] std::string worn_map_csv(const lenses::WornMap& map, lenses::CylinderForm form);
+// unwanted: astigmatism of the difference to the report's ordered_power.
+[[nodiscard]] std::string worn_map_csv(const lenses::WornMap& map, const MeasureReport& report);
 
 }  // namespace app

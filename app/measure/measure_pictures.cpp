@@ -247,15 +247,17 @@ std::vector<NamedPicture> measure_pictures(const MeasureReport& report, const le
   add("worn_power", "Mean power as worn by the turning eye, object at infinity, at the vertex sphere.",
       as_worn.picture("As worn, far: mean power",
                       [](const auto& r) { return if_ok(r.far, lenses::mean_power(r.far.power)); }));
-  add("worn_astigmatism", "Astigmatism as worn, object at infinity.",
-      as_worn.picture("As worn, far: astigmatism",
-                      [](const auto& r) { return if_ok(r.far, lenses::astigmatism(r.far.power)); }));
+  const glm::dvec3 ordered = ordered_power(report);
+  const std::string beyond(report.lens.order ? " beyond the order" : "");
+  add("worn_astigmatism", "Astigmatism" + beyond + " as worn, object at infinity.",
+      as_worn.picture("As worn, far: astigmatism" + beyond,
+                      [&](const auto& r) { return if_ok(r.far, lenses::astigmatism(r.far.power - ordered)); }));
   add("working_power", "Mean power as worn with the object at each gaze's working distance.",
       as_worn.picture("As worn, at working distance: mean power",
                       [](const auto& r) { return if_ok(r.working, lenses::mean_power(r.working.power)); }));
-  add("working_astigmatism", "Astigmatism as worn with the object at each gaze's working distance.",
-      as_worn.picture("As worn, at working distance: astigmatism",
-                      [](const auto& r) { return if_ok(r.working, lenses::astigmatism(r.working.power)); }));
+  add("working_astigmatism", "Astigmatism" + beyond + " as worn with the object at each gaze's working distance.",
+      as_worn.picture("As worn, at working distance: astigmatism" + beyond,
+                      [&](const auto& r) { return if_ok(r.working, lenses::astigmatism(r.working.power - ordered)); }));
   return pictures;
 }
 

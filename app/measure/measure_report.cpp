@@ -134,6 +134,14 @@ MeasureReport measure_lens(const std::string& source, const lenses::Lens& lens, 
   return report;
 }
 
+glm::dvec3 ordered_power(const MeasureReport& report) {
+  if (!report.lens.order) {
+    return glm::dvec3(0.0);
+  }
+  const lenses::Prescription& rx = report.lens.order->ordered;
+  return lenses::power_matrix({rx.sphere, rx.cylinder, rx.axis});
+}
+
 std::string verdict_line(const MeasureReport& report) {
   if (!report.verdict) {
     return "No verdict: nothing says what was ordered; give --sphere, --cylinder, --axis, --add, --prism.";

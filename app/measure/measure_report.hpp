@@ -29,6 +29,9 @@ struct MeasureReport {
                                          lenses::CylinderForm form, lenses::LensClass lens_class,
                                          const lenses::ToleranceStandard& standard);
 
+// What was ordered for distance, as a power matrix; zero where nothing was. Astigmatism beyond it is unwanted.
+[[nodiscard]] glm::dvec3 ordered_power(const MeasureReport& report);
+
 // What was judged against, in words.
 [[nodiscard]] std::string verdict_line(const MeasureReport& report);
 

@@ -66,27 +66,33 @@ glm::dvec3 snell(const glm::dvec3& d, const glm::dvec2& slope, double n, double 
 }
 
 TEST_P(PlacedSurface, AWedgeDeviatesAsTwoPlanesDo) {
+  std::vector<TraceRequest> requests;
   for (const glm::dvec2& back : {glm::dvec2(0.0), glm::dvec2(0.1, 0.0), glm::dvec2(-0.05, 0.2)}) {
     for (const glm::dvec2& front : {glm::dvec2(0.15, -0.1), glm::dvec2(0.0)}) {
       auto request = through(lenses::Plane{}, lenses::Plane{}, 20.0);
       request.lens->back_placement.slope = back;
       request.lens->front_placement.slope = front;
-      const auto requests = from_everywhere(request);
-      const auto results = trace(requests);
-      for (std::size_t i = 0; i < results.size(); ++i) {
-        SCOPED_TRACE(testing::Message() << back.x << " " << back.y << " " << front.x << ", ray " << i);
-        const glm::dvec3 d = glm::normalize(requests[i].direction);
-        const glm::dvec3 expected = snell(snell(d, back, 1.0, 1.5), front, 1.5, 1.0);
-        if (std::isnan(expected.z)) {
-          EXPECT_EQ(results[i].status, RayStatus::tir_front);
-          continue;
-        }
-        ASSERT_EQ(results[i].status, RayStatus::ok);
-        EXPECT_LE(glm::length(results[i].object_direction - expected), radians());
-        expect_vergence(results[i], glm::dvec3(0.0));
-      }
+      const auto rays = from_everywhere(request);
+      requests.insert(requests.end(), rays.begin(), rays.end());
     }
   }
+  const auto results = trace(requests);
+  int passed = 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    SCOPED_TRACE(testing::Message() << "lens " << i / 20 << ", ray " << i % 20);
+    const lenses::Lens& lens = *requests[i].lens;
+    const glm::dvec3 in_glass = snell(glm::normalize(requests[i].direction), lens.back_placement.slope, 1.0, 1.5);
+    const glm::dvec3 expected = snell(in_glass, lens.front_placement.slope, 1.5, 1.0);
+    if (std::isnan(expected.z)) {
+      EXPECT_EQ(results[i].status, RayStatus::tir_front);
+      continue;
+    }
+    ++passed;
+    ASSERT_EQ(results[i].status, RayStatus::ok);
+    EXPECT_LE(glm::length(results[i].object_direction - expected), radians());
+    expect_vergence(results[i], glm::dvec3(0.0));
+  }
+  EXPECT_GE(passed, 110);
 }
 
 // The base is where the glass is thicker, and outgoing rays turn towards it: by (n - 1) times the slope. The third

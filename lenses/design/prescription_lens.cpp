@@ -70,11 +70,11 @@ class LensMaker {
 
   // A thicker lens of plus power has a steeper back, a smaller one is thinner: the diameter by rule only ever shrinks.
   void settle_size() {
-    constexpr int kMostPasses = 60;
+    constexpr int kMostPasses = 60, kMostRenewals = 4;
     double diameter = asked_diameter();
     draft_.set_diameter(diameter);
     draft_.solve(request_.centre_thickness.value_or(rule_.minimum_centre));
-    bool renewed = request_.design != LensDesign::progressive;
+    int renewals = 0;
     for (int pass = 0; pass < kMostPasses; ++pass) {
       if (by_rule()) {
         diameter = narrower(diameter);
@@ -83,11 +83,9 @@ class LensMaker {
       if (!settle_thickness() || (by_rule() && draft_.widest() < diameter)) {
         continue;
       }
-      if (renewed) {
+      if (renewals++ == kMostRenewals || !draft_.renew()) {
         return;
       }
-      draft_.renew();
-      renewed = true;
     }
     refuse_reach();
   }

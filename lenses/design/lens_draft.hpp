@@ -1,6 +1,8 @@
 // A lens between order and finish: at a given thickness and diameter its surfaces are solved for.
 #pragma once
 
+#include <limits>
+
 #include "lenses/design/lens_request.hpp"
 #include "lenses/design/lens_shape.hpp"
 #include "lenses/design/power_solver.hpp"
@@ -17,6 +19,9 @@ class LensDraft {
   // By the rule of the smallest radius.
   [[nodiscard]] double widest() const;
   void set_diameter(double diameter);
+  // Makes a progressive surface anew for the thickness and the addition that came out, so that base curve and addition
+  // become what they are meant to be; false when there is nothing left to mend.
+  [[nodiscard]] bool renew();
   void set_conic_constant(double conic_constant);
 
   // Solves the surfaces for this thickness. Throws DesignError where there is no such lens.
@@ -41,7 +46,7 @@ class LensDraft {
   void solve_reading();
   void solve_worn();
   void solve_segment();
-  [[nodiscard]] double segment_addition() const;
+  [[nodiscard]] double read_addition() const;
 
   LensRequest request_;
   PointPower ordered_;    // thinning included
@@ -49,6 +54,9 @@ class LensDraft {
   double base_curve_;     // D
   double conic_constant_ = 0.0;
   double segment_curvature_ = 0.0;
+  double progressive_addition_ = 0.0;                                      // of the surface, D
+  double progressive_thickness_ = 0.0;                                     // that the surface was made for, m
+  double progressive_diameter_ = std::numeric_limits<double>::infinity();  // of the net, m
   LensShape shape_;
   LensUnknowns unknowns_;
   bool guessed_ = false;

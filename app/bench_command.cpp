@@ -16,8 +16,8 @@
 #include "app/bench_run.hpp"
 #include "app/commands.hpp"
 #include "app/option_values.hpp"
+#include "app/report/output_folder.hpp"
 #include "app/scene_options.hpp"
-#include "render/image/output_file.hpp"
 #include "render/image/png.hpp"
 #include "tracking/input_error.hpp"
 
@@ -128,18 +128,6 @@ BenchProgress progress_line() {
   };
 }
 
-std::filesystem::path made_folder(const std::string& option, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0) {
-    throw InputError(option, "", "'" + folder + "' cannot be made; a folder that can be written to is expected");
-  }
-  return folder;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  render::write_file(file, std::as_bytes(std::span(text)));
-}
 
 int bench(BenchOptions options) {
   check_range("--rounds", options.rounds, 1, 1000, "");
@@ -187,8 +175,8 @@ Action add_bench_command(CLI::App& program) {
   command->footer(
       "Example:\n"
       "  vergence bench --lens none,bspline/sphere --mode adof --size 512,1024,2048 --output report\n"
-      "Rows that are called bare are drawn as the paper did, with one light, no shadow rays and one ray a pixel, and\n"
-      "stand beside its GTX 480; full rows are what render draws. One eye, the right. Frames take turns over several\n"
+      "Rows that are called bare are drawn as the paper did, in base colours with one light, no shadow rays and one ray a\n"
+      "pixel, and stand beside its GTX 480; full rows are what render draws. One eye, the right. Frames take turns over several\n"
       "rounds. Embree's packets of 16 rays trace the same scene rays in the same run, on all threads of the CPU.");
   add_scene_options(
       *command, options->scene,

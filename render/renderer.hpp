@@ -39,7 +39,7 @@ struct FrameConfig {
   std::uint32_t seed = 0;
   int colour_map = 0;             // 0: the paper's hue, 1: perceptual
   std::optional<MapRange> range;  // absent: from the picture
-  bool bare = false;              // as the paper drew: one light, no shadow rays, one ray a pixel even at edges
+  bool bare = false;              // as the paper drew: base colours, one light, no shadow rays, one ray a pixel
   bool keep_radiance = false;     // also return linear radiance
   bool keep_wavefront = false;    // also return the wavefront of every pixel
 };

@@ -14,7 +14,7 @@ enum class Traversal {
 };
 
 struct RendererConfig {
-  Traversal traversal = Traversal::automatic;
+  Traversal traversal = Traversal::tile;
   std::filesystem::path traversal_file = {};  // keeps what was measured; empty: each renderer measures for itself
 };
 

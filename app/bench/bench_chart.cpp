@@ -81,7 +81,7 @@ std::string to_svg(const Chart& chart) {
   constexpr int kBaseline = 9;  // from the top of a 12 px letter
   for (const Chart::Label& label : chart.labels) {
     out << "<text x=\"" << label.x << "\" y=\"" << label.y + kBaseline << "\" fill=\"" << hex(label.colour) << "\">"
-        << escaped(label.text) << "</text>\n";
+        << html_escaped(label.text) << "</text>\n";
   }
   out << "</svg>\n";
   return out.str();

@@ -5,6 +5,7 @@
 
 #include "app/bench/bench_growth.hpp"
 #include "app/bench/bench_text.hpp"
+#include "app/report/html.hpp"
 
 namespace app {
 namespace {
@@ -47,7 +48,7 @@ std::string rows_of_size(const BenchReport& report, int size, const std::string&
     }
     if (out.empty()) {
       out = format("\n%dx%d, %s\n", size, size,
-                   shading == "bare" ? "bare: one light, no shadow rays, one ray a pixel, as in the paper"
+                   shading == "bare" ? "bare: base colours, one light, no shadow rays, one ray a pixel, as in the paper"
                                      : "full: every light with its shadow rays, edges refined");
       out += format("%-*s mode    median ms      min      max      fps   GTX 480 ms   stages\n", lens_width(report),
                     "lens");
@@ -116,10 +117,9 @@ std::string bench_table(const BenchReport& report) {
 }
 
 std::string bench_page(const BenchReport& report) {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Vergence: benchmark</title></head>\n"
-         "<body>\n<h1>Benchmark</h1>\n<img src=\"bench.svg\" alt=\"Milliseconds a frame\">\n<pre>\n" +
-         escaped(bench_table(report)) +
-         "</pre>\n<p>Every number is in <a href=\"bench.csv\">bench.csv</a>.</p>\n</body></html>\n";
+  return html_page("benchmark", "<h1>Benchmark</h1>\n<img src=\"bench.svg\" alt=\"Milliseconds a frame\">\n<pre>\n" +
+                                    html_escaped(bench_table(report)) +
+                                    "</pre>\n<p>Every number is in <a href=\"bench.csv\">bench.csv</a>.</p>\n");
 }
 
 }  // namespace app

@@ -27,7 +27,7 @@ inline const std::array<std::string, 5> kBenchLenses{"none", "sphere/sphere", "s
 inline const std::string kFineNetLens = "bspline100/sphere";
 inline const std::array<std::string, 4> kBenchModes{"adof", "vis", "pin", "dof"};
 
-// bare: as the paper drew, with one light, no shadow rays and one ray a pixel. full: as `render` draws.
+// bare: as the paper drew, in base colours with one light, no shadow rays and one ray a pixel. full: as `render` draws.
 inline const std::array<std::string, 2> kBenchShadings{"bare", "full"};
 
 struct BenchRow {

@@ -103,9 +103,9 @@ std::string pair_text(const std::string& name, const Json& right, const Json& le
 
 }  // namespace
 
-BsplineNet progressive_front_right() {
+BsplineNet progressive_front_right(std::size_t count) {
   const ProgressiveSurface surface;
-  return fit_bspline([&](double x, double y) { return surface.height(-x, y); }, 50, 0.035);
+  return fit_bspline([&](double x, double y) { return surface.height(-x, y); }, count, 0.035);
 }
 
 Json single_vision_lens(const SingleVision& order) {
@@ -144,6 +144,12 @@ std::map<std::string, std::string> spectacles_files() {
   files["spectacles/emmetropia.json"] = both("Plano", {});
   files["lenses/progressive_add200_right.json"] = text_of(progressive_lens(right, -1, 0.0, 0.0)) + "\n";
   return files;
+}
+
+std::string fine_net_pair() {
+  const BsplineNet right = progressive_front_right(100);
+  return pair_text("Progressive, plano, addition 2.00, 100 x 100 control points", progressive_lens(right, -1, 0.0, 0.0),
+                   progressive_lens(mirrored(right), 1, 0.0, 0.0));
 }
 
 }  // namespace assets

@@ -96,7 +96,7 @@ void main() {
   if (p.x >= size.x || p.y >= size.y) {
     return;
   }
-  int base = int(gl_GlobalInvocationID.z) * size.x * size.y;
+  int base = frame.view.x * size.x * size.y;
   int at = base + p.y * size.x + p.x;
   Tap centre = tap_at(at);
   float reach = major(centre.ellipse);

@@ -17,7 +17,7 @@ void main() {
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }
-  int at = (int(gl_GlobalInvocationID.z) * frame.size.y + p.y) * frame.size.x + p.x;
+  int at = (frame.view.x * frame.size.y + p.y) * frame.size.x + p.x;
   vec3 shown;
   if (frame.size.w <= kModeDof) {
     uvec2 packed = radiance[at];

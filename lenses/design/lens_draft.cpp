@@ -344,19 +344,16 @@ WornSetup LensDraft::worn_setup() const {
 
 std::optional<PointPower> LensDraft::worn() const {
   const ReferencePoints& points = shape_.lens().reference_points;
-  auto power = worn_power(shape_.lens(), worn_setup(), *points.distance);
+  const WornLens lens(shape_.lens(), worn_setup());
+  auto power = lens.through(*points.distance);
   if (power && *points.prism != *points.distance) {
-    const auto prism = worn_power(shape_.lens(), worn_setup(), *points.prism);
+    const auto prism = lens.through(*points.prism);
     if (!prism) {
       return std::nullopt;
     }
     power->prism = prism->prism;
   }
   return power;
-}
-
-Lens LensDraft::finished() const {
-  return shape_.lens();
 }
 
 }  // namespace lenses::design

@@ -33,9 +33,6 @@ class LensDraft {
   [[nodiscard]] WornSetup worn_setup() const;
   [[nodiscard]] const PointPower& ordered() const { return ordered_; }
 
-  // Round surfaces in their simplest form.
-  [[nodiscard]] Lens finished() const;
-
  private:
   [[nodiscard]] bool toric_front() const;
   [[nodiscard]] bool decentres() const { return request_.prism_by == PrismBy::decentration; }

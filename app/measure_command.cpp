@@ -12,6 +12,7 @@
 #include "app/measure/measure_pictures.hpp"
 #include "app/measure/measure_report.hpp"
 #include "app/option_values.hpp"
+#include "app/prism_option.hpp"
 #include "app/report/output_folder.hpp"
 #include "lenses/lens_io/lens_io.hpp"
 #include "render/image/png.hpp"
@@ -74,11 +75,7 @@ std::optional<lenses::Order> order_by_hand(const MeasureOptions& options) {
     throw InputError("--axis", "", "is missing; a cylinder needs its axis, 0 to 180 degrees (TABO)");
   }
   for (const std::string& text : options.prism) {
-    const std::vector<double> prism =
-        numbers_of("--prism", text, 2, "MAGNITUDE,BASE in pd and degrees, such as 1.5,180");
-    check_range("--prism", prism[0], 0.0, 40.0, "pd");
-    check_range("--prism", prism[1], 0.0, 360.0, "degrees");
-    order.ordered.prism.push_back({prism[0], prism[1] * kRadians});
+    order.ordered.prism.push_back(prism_of("--prism", text, side_of(options)));
   }
   return order;
 }
@@ -111,11 +108,9 @@ lenses::Progress progress_of(const std::string& what) {
   return [what](double done) { std::fprintf(stderr, "\r%s %3.0f %% ", what.c_str(), 100.0 * done); };
 }
 
-void write_report(const std::filesystem::path& folder, const MeasureOptions& options, const MeasureReport& report) {
+void write_report(const std::filesystem::path& folder, const MeasureOptions& options, const MeasureReport& report,
+                  const lenses::Eye& eye) {
   const auto points = static_cast<std::size_t>(options.grid);
-  const lenses::Eye eye = options.wearer.empty()
-                              ? lenses::Eye{}
-                              : lenses::read_wearer(options.wearer).eye[static_cast<std::size_t>(report.side)];
   const lenses::LensMap lens_map =
       lenses::lens_map(report.lens, lenses::Lensmeter(report.lens), points, progress_of("over the lens"));
   const lenses::WornMap worn_map =
@@ -147,6 +142,9 @@ int measure(const MeasureOptions& options) {
   const lenses::ToleranceStandard& standard = standard_of(options.standard);
   const std::optional<lenses::Order> by_hand = order_by_hand(options);
   Subject subject = read_subject(options);
+  const lenses::Eye eye = options.wearer.empty()
+                              ? lenses::Eye{}
+                              : lenses::read_wearer(options.wearer).eye[static_cast<std::size_t>(side_of(options))];
   if (by_hand) {
     subject.lens.order = by_hand;
   }
@@ -158,7 +156,7 @@ int measure(const MeasureOptions& options) {
                      options.form == "plus" ? lenses::CylinderForm::plus : lenses::CylinderForm::minus,
                      class_of(options, subject.lens), standard);
     if (!folder.empty()) {
-      write_report(folder, options, report);
+      write_report(folder, options, report, eye);
     }
     std::cout << (options.json ? measure_json(report) : measure_table(report));
   } catch (const std::invalid_argument& error) {
@@ -176,7 +174,8 @@ void add_order_options(CLI::App& command, MeasureOptions& options) {
   command.add_option("--cylinder", options.cylinder, "Ordered cylinder, D, either sign");
   command.add_option("--axis", options.axis, "Its axis, TABO degrees");
   command.add_option("--add", options.add, "Ordered addition, D");
-  command.add_option("--prism", options.prism, "Ordered prism, MAGNITUDE,BASE: pd and TABO degrees; may be repeated");
+  command.add_option("--prism", options.prism,
+                     "Ordered prism, M@B: prism dioptres and base (0-360 TABO, up, down, in, out); may be repeated");
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "app/measure/measure_pictures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
@@ -57,8 +59,18 @@ std::vector<glm::dvec2> plotted(const std::vector<glm::dvec2>& polygon,
 void add_lens_marks(MapPicture& map, const lenses::Lens& lens, const ToPlot& to_plot) {
   const lenses::ReferencePoints& points = lens.reference_points;
   const auto add = [&](MapMark::Shape shape, const std::optional<glm::dvec2>& at, const char* label) {
-    if (at) {
-      map.marks.push_back({shape, to_plot.from_back(*at), label});
+    if (!at) {
+      return;
+    }
+    const glm::dvec2 place = to_plot.from_back(*at);
+    // Points that coincide share a label.
+    const auto same = std::ranges::find_if(
+        map.marks, [&](const MapMark& mark) { return !mark.label.empty() && glm::distance(mark.at, place) < 1e-6; });
+    if (same != map.marks.end()) {
+      same->label += std::string(" ") + label;
+      map.marks.push_back({shape, place, ""});
+    } else {
+      map.marks.push_back({shape, place, label});
     }
   };
   add(MapMark::Shape::cross, points.fitting_cross, "");
@@ -198,6 +210,12 @@ class WornPictures {
     const ToPlot to_gaze{
         [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(worn_.gaze_through(p)); },
         [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(base_.gaze_through_front(p)); }};
+    if (report_.lens.attached_to == lenses::Lens::AttachedTo::eye) {
+      // It turns with the eye: no point of it belongs to a gaze.
+      const glm::dvec2 low = map.field.grid.low, high = map.field.grid.high;
+      map.region = {low, {high.x, low.y}, high, {low.x, high.y}};
+      return map;
+    }
     map.region = plotted(lenses::blank_of(report_.lens), to_gaze.from_back);
     add_lens_marks(map, report_.lens, to_gaze);
     return map;

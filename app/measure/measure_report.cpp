@@ -128,7 +128,7 @@ MeasureReport measure_lens(const std::string& source, const lenses::Lens& lens, 
   report.readings = read_lens_powers(lens, lensmeter);
   report.centre_thickness = lensmeter.thickness(glm::dvec2(0.0));
   report.edge = edge_thickness(lens, lensmeter);
-  if (lens.order) {
+  if (lens.order && lens.attached_to == lenses::Lens::AttachedTo::head) {
     report.verdict = judge(standard, lens_class, report.readings, *lens.order);
   }
   return report;
@@ -143,6 +143,9 @@ glm::dvec3 ordered_power(const MeasureReport& report) {
 }
 
 std::string verdict_line(const MeasureReport& report) {
+  if (report.lens.attached_to == lenses::Lens::AttachedTo::eye) {
+    return "No verdict: the tolerances are for spectacle lenses, and this one is worn on the eye.";
+  }
   if (!report.verdict) {
     return "No verdict: nothing says what was ordered; give --sphere, --cylinder, --axis, --add, --prism.";
   }

@@ -21,7 +21,7 @@ struct MeasureReport {
   lenses::LensReadings readings;
   std::optional<double> centre_thickness;  // m, at the lens's origin
   std::optional<lenses::EdgeThickness> edge;
-  std::optional<lenses::Verdict> verdict;  // none: nothing was ordered
+  std::optional<lenses::Verdict> verdict;  // none: nothing was ordered, or it is a contact lens
 };
 
 // Throws std::invalid_argument for a lens that cannot be modelled. `standard` counts only where something was ordered.

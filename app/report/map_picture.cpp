@@ -50,13 +50,18 @@ void draw_text_beside(Image8& image, int x, int y, const std::string& text, Rgb 
 class Drawing {
  public:
   explicit Drawing(const MapPicture& map)
-      : map_(map),
-        filled_(grown(map.field, 3)),
-        image_(render::black_image(kLeft + kPlot + kBar, kTop + kPlot + kBottom)) {
+      : map_(map), filled_(map.field), image_(render::black_image(kLeft + kPlot + kBar, kTop + kPlot + kBottom)) {
     render::fill_rect(image_, {0, 0, image_.width, image_.height}, kGround);
     const glm::dvec2 size = map.field.grid.high - map.field.grid.low;
     per_pixel_ = std::max(size.x, size.y) / kPlot;
     middle_ = 0.5 * (map.field.grid.low + map.field.grid.high);
+    // A sample without a value, such as one in the wall of a segment, belongs to where it lies.
+    for (std::size_t i = 0; i < filled_.zones.size(); ++i) {
+      if (!std::isfinite(filled_.values[i])) {
+        filled_.zones[i] = zone_at(filled_.grid.at(i));
+      }
+    }
+    filled_ = grown(std::move(filled_), 3);
   }
 
   Image8 finished() {
@@ -99,14 +104,17 @@ class Drawing {
     draw_polygon(map_.region, 1.5, kFrame);
   }
 
+  [[nodiscard]] int zone_at(const glm::dvec2& point) const {
+    int zone = 0;
+    for (const MapZone& part : map_.zones) {
+      zone += lenses::inside_polygon(part.edge, point) ? part.number : 0;
+    }
+    return zone;
+  }
+
   void fill_pixel(int x, int y) {
-    const double value = value_at(filled_, place(x + 0.5, y + 0.5), [&](const glm::dvec2& point) {
-      int zone = 0;
-      for (const MapZone& part : map_.zones) {
-        zone += lenses::inside_polygon(part.edge, point) ? part.number : 0;
-      }
-      return zone;
-    });
+    const double value =
+        value_at(filled_, place(x + 0.5, y + 0.5), [&](const glm::dvec2& point) { return zone_at(point); });
     render::fill_rect(image_, {x, y, 1, 1}, std::isfinite(value) ? colour_of(value, map_.scale) : kNoValue);
   }
 
@@ -173,6 +181,7 @@ class Drawing {
       }
     }
     // Labels last, so that no line runs through one; marks are drawn over all.
+    taken_.push_back({kLeft, kTop, render::text_width(map_.y_label, kText) + 14, kTextHeight + 14});
     for (const MapMark& mark : map_.marks) {
       const Point p = pixel(mark.at);
       taken_.push_back({static_cast<int>(p.x) - 12, static_cast<int>(p.y) - 20, 40, 34});

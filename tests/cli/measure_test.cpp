@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "render/image/png.hpp"
@@ -57,6 +58,30 @@ TEST(Measure, PrintsReadingsAndVerdictAsJson) {
   for (const json& check : report["verdict"]["checks"]) {
     EXPECT_LE(std::abs(check["difference"].get<double>()), check["limit"].get<double>());
   }
+}
+
+// The keys of an object are those its schema requires, and no others are allowed.
+void expect_keys(const json& object, const json& schema) {
+  std::set<std::string> given, required;
+  for (const auto& [key, value] : object.items()) {
+    given.insert(key);
+  }
+  for (const json& key : schema.at("required")) {
+    required.insert(key.get<std::string>());
+  }
+  EXPECT_EQ(given, required);
+  EXPECT_EQ(schema.at("additionalProperties"), false);
+}
+
+TEST(Measure, JsonHasTheKeysOfItsSchema) {
+  const json schema = json::parse(text_of(std::string(VERGENCE_ASSETS) + "/schemas/measure-output.schema.json"));
+  const auto result = run_program({.arguments = measure({"--lens", kProgressive, "--add", "2", "--json"})});
+  const json report = json::parse(result.out);
+  expect_keys(report, schema);
+  expect_keys(report["thickness_mm"], schema["properties"]["thickness_mm"]);
+  expect_keys(report["readings"][0], schema["$defs"]["reading"]);
+  expect_keys(report["verdict"], schema["$defs"]["verdict"]);
+  expect_keys(report["verdict"]["checks"][0], schema["$defs"]["check"]);
 }
 
 TEST(Measure, BothCylinderFormsAreOneLens) {

@@ -20,6 +20,23 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPowerStep = 0.25, kPrismStep = 1.0, kThicknessStep = 0.25;  // D, prism dioptres, mm
 constexpr double kLeastCylinder = 0.12;                                       // with an axis worth a stroke, D
 
+// Short lines along the cylinder's axis, a twelfth of the map apart; power(i) is none where nothing was read.
+void add_axes(MapPicture& map, lenses::CylinderForm form,
+              const std::function<std::optional<glm::dvec3>(std::size_t)>& power) {
+  const lenses::Grid& grid = map.field.grid;
+  const std::size_t every = std::max<std::size_t>(1, (grid.columns - 1) / 12);
+  const std::size_t from_middle = (grid.columns / 2) % every;
+  for (std::size_t i = 0; i < grid.count(); ++i) {
+    if ((i % grid.columns) % every != from_middle || (i / grid.columns) % every != from_middle) {
+      continue;
+    }
+    const auto here = power(i);
+    if (here && lenses::astigmatism(*here) >= kLeastCylinder) {
+      map.strokes.push_back({grid.at(i), std::numbers::pi - sphere_cylinder(*here, form).axis});
+    }
+  }
+}
+
 // From a point of the back (reference points, outline) and of the front (segments) to its place in the plot.
 struct ToPlot {
   std::function<glm::dvec2(const glm::dvec2&)> from_back, from_front;
@@ -150,22 +167,6 @@ class LensPictures {
     return map;
   }
 
-  // Short lines along the cylinder's axis, about 6 mm apart on a lens of 65 mm.
-  void add_axes(MapPicture& map) const {
-    const std::size_t every = std::max<std::size_t>(1, (map_.grid.columns - 1) / 12);
-    for (std::size_t i = 0; i < map_.readings.size(); ++i) {
-      const lenses::LensmeterReading& reading = map_.readings[i].back;
-      const std::size_t from_middle = (map_.grid.columns / 2) % every;
-      const bool chosen =
-          (i % map_.grid.columns) % every == from_middle && (i / map_.grid.columns) % every == from_middle;
-      if (!chosen || reading.status != RayStatus::ok || lenses::astigmatism(reading.power) < kLeastCylinder) {
-        continue;
-      }
-      const double tabo = sphere_cylinder(reading.power, report_.form).axis;
-      map.strokes.push_back({map.field.grid.at(i), std::numbers::pi - tabo});
-    }
-  }
-
   void set_note(MapPicture& map, const std::string& unit) const {
     map.note = format("%g %s a line, %s; %s", map.scale.step, unit.c_str(), view_words(viewed_by_),
                       short_name(report_).c_str());
@@ -187,11 +188,11 @@ class WornPictures {
         base_(without_segments(report.lens), report.side, eye),
         viewed_by_(viewed_by) {}
 
-  [[nodiscard]] MapPicture picture(const std::string& title,
+  [[nodiscard]] MapPicture picture(const std::string& title, const std::string& unit, double step,
                                    const std::function<double(const lenses::WornMapReading&)>& value) const {
     MapPicture map;
     map.title = title;
-    map.unit = std::string("D");
+    map.unit = unit;
     map.x_label = "gaze, deg to the wearer's right";
     map.y_label = "deg up";
     set_sides(map, report_, viewed_by_);
@@ -205,8 +206,9 @@ class WornPictures {
         counted.push_back(map.field.values.back());
       }
     }
-    map.scale = map_scale(counted, kPowerStep);
-    map.note = format("%g D a line, %s; %s", map.scale.step, view_words(viewed_by_), short_name(report_).c_str());
+    map.scale = map_scale(counted, step);
+    map.note = format("%g %s a line, %s; %s", map.scale.step, unit.c_str(), view_words(viewed_by_),
+                      short_name(report_).c_str());
     const ToPlot to_gaze{
         [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(worn_.gaze_through(p)); },
         [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(base_.gaze_through_front(p)); }};
@@ -236,46 +238,78 @@ double if_ok(const lenses::LensmeterReading& reading, double value) {
   return reading.status == RayStatus::ok ? value : kNone;
 }
 
+using Pictures = std::vector<NamedPicture>;
+
+void add(Pictures& pictures, const std::string& file, const std::string& caption, const MapPicture& map) {
+  pictures.push_back({file + ".png", caption, draw_map(map)});
+}
+
+void add_lens_pictures(Pictures& pictures, const MeasureReport& report, const lenses::LensMap& lens_map,
+                       ViewedBy viewed_by) {
+  const LensPictures on_lens(report, lens_map, viewed_by);
+  add(pictures, "power", "Mean back vertex power over the lens, the beam normal to the back surface at each point.",
+      on_lens.picture("Back vertex power, mean", "D", kPowerStep,
+                      [](const auto& r) { return if_ok(r.back, lenses::mean_power(r.back.power)); }));
+  MapPicture cylinder = on_lens.picture("Cylinder, strokes along its axis", "D", kPowerStep,
+                                        [](const auto& r) { return if_ok(r.back, lenses::astigmatism(r.back.power)); });
+  add_axes(cylinder, report.form, [&](std::size_t i) {
+    const lenses::LensmeterReading& r = lens_map.readings[i].back;
+    return r.status == RayStatus::ok ? std::optional(r.power) : std::nullopt;
+  });
+  add(pictures, "cylinder", "Cylinder over the lens; short lines lie along its axis.", cylinder);
+  MapPicture prism = on_lens.picture("Prism", "pd", kPrismStep,
+                                     [](const auto& r) { return if_ok(r.back, glm::length(r.back.prism)); });
+  prism.decimals = 0;
+  add(pictures, "prism", "Prism over the lens, prism dioptres.", prism);
+  add(pictures, "thickness", "Thickness along the lens axis.",
+      on_lens.picture("Thickness along the axis", "mm", kThicknessStep,
+                      [](const auto& r) { return 1e3 * r.thickness; }));
+}
+
+// One of the two distances at which a map has a reading for each gaze.
+struct WornDistance {
+  std::string file, title, caption;
+  lenses::WornReading lenses::WornMapReading::*reading;
+};
+
+void add_worn_pictures(Pictures& pictures, const MeasureReport& report, const lenses::WornMap& worn_map,
+                       const lenses::Eye& eye, ViewedBy viewed_by) {
+  const WornPictures as_worn(report, worn_map, eye, viewed_by);
+  const glm::dvec3 ordered = ordered_power(report);
+  const std::string beyond(report.lens.order ? " beyond the order" : "");
+  const WornDistance distances[]{
+      {"worn", "As worn, far: ", " as worn by the turning eye, object at infinity", &lenses::WornMapReading::far},
+      {"working", "At working distance: ", " as worn, object at each gaze's working distance",
+       &lenses::WornMapReading::working}};
+  for (const WornDistance& at : distances) {
+    add(pictures, at.file + "_power", "Mean power" + at.caption + ", at the vertex sphere.",
+        as_worn.picture(at.title + "mean power", "D", kPowerStep, [&](const auto& r) {
+          return if_ok(r.*at.reading, lenses::mean_power((r.*at.reading).power));
+        }));
+    MapPicture map = as_worn.picture(at.title + "astigmatism" + beyond, "D", kPowerStep, [&](const auto& r) {
+      return if_ok(r.*at.reading, lenses::astigmatism((r.*at.reading).power - ordered));
+    });
+    add_axes(map, report.form, [&](std::size_t i) {
+      const lenses::WornReading& r = worn_map.readings[i].*at.reading;
+      return r.status == RayStatus::ok ? std::optional(r.power - ordered) : std::nullopt;
+    });
+    add(pictures, at.file + "_astigmatism", "Astigmatism" + beyond + at.caption + "; short lines lie along its axis.",
+        map);
+  }
+  MapPicture prism = as_worn.picture("As worn: prism", "pd", kPrismStep,
+                                     [](const auto& r) { return if_ok(r.far, glm::length(r.far.prism)); });
+  prism.decimals = 0;
+  add(pictures, "worn_prism", "Deviation of the turning eye's line of sight, prism dioptres.", prism);
+}
+
 }  // namespace
 
 std::vector<NamedPicture> measure_pictures(const MeasureReport& report, const lenses::LensMap& lens_map,
                                            const lenses::WornMap& worn_map, const lenses::Eye& eye,
                                            ViewedBy viewed_by) {
-  std::vector<NamedPicture> pictures;
-  const auto add = [&](const std::string& file, const std::string& caption, const MapPicture& map) {
-    pictures.push_back({file + ".png", caption, draw_map(map)});
-  };
-  const LensPictures on_lens(report, lens_map, viewed_by);
-  add("power", "Mean back vertex power over the lens, the beam normal to the back surface at each point.",
-      on_lens.picture("Back vertex power, mean", "D", kPowerStep,
-                      [](const auto& r) { return if_ok(r.back, lenses::mean_power(r.back.power)); }));
-  MapPicture cylinder = on_lens.picture("Cylinder, strokes along its axis", "D", kPowerStep,
-                                        [](const auto& r) { return if_ok(r.back, lenses::astigmatism(r.back.power)); });
-  on_lens.add_axes(cylinder);
-  add("cylinder", "Cylinder over the lens; short lines lie along its axis.", cylinder);
-  MapPicture prism = on_lens.picture("Prism", "pd", kPrismStep,
-                                     [](const auto& r) { return if_ok(r.back, glm::length(r.back.prism)); });
-  prism.decimals = 0;
-  add("prism", "Prism over the lens, prism dioptres.", prism);
-  add("thickness", "Thickness along the lens axis.",
-      on_lens.picture("Thickness along the axis", "mm", kThicknessStep,
-                      [](const auto& r) { return 1e3 * r.thickness; }));
-
-  const WornPictures as_worn(report, worn_map, eye, viewed_by);
-  add("worn_power", "Mean power as worn by the turning eye, object at infinity, at the vertex sphere.",
-      as_worn.picture("As worn, far: mean power",
-                      [](const auto& r) { return if_ok(r.far, lenses::mean_power(r.far.power)); }));
-  const glm::dvec3 ordered = ordered_power(report);
-  const std::string beyond(report.lens.order ? " beyond the order" : "");
-  add("worn_astigmatism", "Astigmatism" + beyond + " as worn, object at infinity.",
-      as_worn.picture("As worn, far: astigmatism" + beyond,
-                      [&](const auto& r) { return if_ok(r.far, lenses::astigmatism(r.far.power - ordered)); }));
-  add("working_power", "Mean power as worn with the object at each gaze's working distance.",
-      as_worn.picture("As worn, at working distance: mean power",
-                      [](const auto& r) { return if_ok(r.working, lenses::mean_power(r.working.power)); }));
-  add("working_astigmatism", "Astigmatism" + beyond + " as worn with the object at each gaze's working distance.",
-      as_worn.picture("As worn, at working distance: astigmatism" + beyond,
-                      [&](const auto& r) { return if_ok(r.working, lenses::astigmatism(r.working.power - ordered)); }));
+  Pictures pictures;
+  add_lens_pictures(pictures, report, lens_map, viewed_by);
+  add_worn_pictures(pictures, report, worn_map, eye, viewed_by);
   return pictures;
 }
 

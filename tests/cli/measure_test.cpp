@@ -154,8 +154,9 @@ TEST(Measure, WritesNumbersPicturesAndPage) {
     }
   }
   const std::string page = text_of(out / "report.html");
-  for (const char* picture : {"power.png", "cylinder.png", "prism.png", "thickness.png", "worn_power.png",
-                              "worn_astigmatism.png", "working_power.png", "working_astigmatism.png"}) {
+  for (const char* picture :
+       {"power.png", "cylinder.png", "prism.png", "thickness.png", "worn_power.png", "worn_astigmatism.png",
+        "working_power.png", "working_astigmatism.png", "worn_prism.png"}) {
     EXPECT_NO_THROW(static_cast<void>(render::read_png(out / picture))) << picture;
     EXPECT_NE(page.find(picture), std::string::npos) << picture;
   }

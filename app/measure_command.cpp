@@ -40,6 +40,7 @@ struct Subject {
   std::string source;  // as a report names it
   std::string file, field;
   lenses::Lens lens;
+  std::optional<lenses::Lens> other;  // of the pair
 };
 
 lenses::Side side_of(const MeasureOptions& options) {
@@ -51,11 +52,12 @@ Subject read_subject(const MeasureOptions& options) {
     throw InputError("--lens", "", "is missing; a lens file, or a pair by --spectacles, is needed");
   }
   if (!options.lens.empty()) {
-    return {options.lens, options.lens, "", lenses::read_lens(options.lens)};
+    return {options.lens, options.lens, "", lenses::read_lens(options.lens), std::nullopt};
   }
   const lenses::Spectacles pair = lenses::read_spectacles(options.spectacles);
-  return {options.spectacles + ", " + options.side, options.spectacles, options.side,
-          pair.lens[static_cast<std::size_t>(side_of(options))]};
+  const auto side = static_cast<std::size_t>(side_of(options));
+  return {options.spectacles + ", " + options.side, options.spectacles, options.side, pair.lens[side],
+          pair.lens[1 - side]};
 }
 
 std::optional<lenses::Order> order_by_hand(const MeasureOptions& options) {
@@ -154,7 +156,7 @@ int measure(const MeasureOptions& options) {
     const MeasureReport report =
         measure_lens(subject.source, subject.lens, side_of(options),
                      options.form == "plus" ? lenses::CylinderForm::plus : lenses::CylinderForm::minus,
-                     class_of(options, subject.lens), standard);
+                     class_of(options, subject.lens), standard, by_hand ? std::nullopt : subject.other);
     if (!folder.empty()) {
       write_report(folder, options, report, eye);
     }

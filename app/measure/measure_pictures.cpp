@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "app/measure/lens_marks.hpp"
 #include "app/report/text.hpp"
 #include "lenses/measure/lens_outline.hpp"
 
@@ -37,11 +38,6 @@ void add_axes(MapPicture& map, lenses::CylinderForm form,
   }
 }
 
-// From a point of the back (reference points, outline) and of the front (segments) to its place in the plot.
-struct ToPlot {
-  std::function<glm::dvec2(const glm::dvec2&)> from_back, from_front;
-};
-
 const char* view_words(ViewedBy viewed_by) {
   return viewed_by == ViewedBy::wearer ? "as the wearer sees it" : "as the examiner sees it";
 }
@@ -59,81 +55,9 @@ void set_sides(MapPicture& map, const MeasureReport& report, ViewedBy viewed_by)
   map.mirrored = viewed_by == ViewedBy::examiner;
 }
 
-// Straight edges of the lens may be curves in the plot.
-std::vector<glm::dvec2> plotted(const std::vector<glm::dvec2>& polygon,
-                                const std::function<glm::dvec2(const glm::dvec2&)>& to_plot) {
-  const int parts = polygon.size() < 100 ? 16 : 1;
-  std::vector<glm::dvec2> line;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    for (int k = 0; k < parts; ++k) {
-      line.push_back(to_plot(a + (b - a) * (static_cast<double>(k) / parts)));
-    }
-  }
-  return line;
-}
-
-void add_lens_marks(MapPicture& map, const lenses::Lens& lens, const ToPlot& to_plot) {
-  const lenses::ReferencePoints& points = lens.reference_points;
-  const auto add = [&](MapMark::Shape shape, const std::optional<glm::dvec2>& at, const char* label) {
-    if (!at) {
-      return;
-    }
-    const glm::dvec2 place = to_plot.from_back(*at);
-    // Points that coincide share a label.
-    const auto same = std::ranges::find_if(
-        map.marks, [&](const MapMark& mark) { return !mark.label.empty() && glm::distance(mark.at, place) < 1e-6; });
-    if (same != map.marks.end()) {
-      same->label += std::string(" ") + label;
-      map.marks.push_back({shape, place, ""});
-    } else {
-      map.marks.push_back({shape, place, label});
-    }
-  };
-  add(MapMark::Shape::cross, points.fitting_cross, "");
-  add(MapMark::Shape::circle, points.distance, "D");
-  add(MapMark::Shape::circle, points.near, "N");
-  add(MapMark::Shape::dot, lenses::prism_point(lens), "P");
-  if (!lens.outline.empty()) {
-    map.outlines.push_back(plotted(lens.outline, to_plot.from_back));
-  }
-  // Numbers as zone_of (lenses/measure/zone.hpp) gives them.
-  if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(&lens.back)) {
-    map.zones.push_back({plotted(segmented->boundary, to_plot.from_back), 1});
-  }
-  if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(&lens.front)) {
-    map.zones.push_back({plotted(segmented->boundary, to_plot.from_front), 2});
-  }
-}
-
 // What the scale is fitted to: values inside the outline, or the lens where there is none.
 bool counts(const lenses::Lens& lens, const glm::dvec2& point) {
   return lens.outline.empty() || lenses::inside_polygon(lens.outline, point);
-}
-
-// The lens as it would be without segments.
-lenses::Lens without_segments(lenses::Lens lens) {
-  for (lenses::Surface* surface : {&lens.front, &lens.back}) {
-    if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(surface)) {
-      const lenses::BasicSurface base = segmented->base;
-      *surface = std::visit([](const auto& shape) { return lenses::Surface(shape); }, base);
-    }
-  }
-  return lens;
-}
-
-// Where a lensmeter's beam that meets the front at a point meets the back.
-glm::dvec2 back_of_front_point(const lenses::Lensmeter& lensmeter, const glm::dvec2& point) {
-  constexpr int kSteps = 12;
-  glm::dvec2 back = point;
-  for (int i = 0; i < kSteps; ++i) {
-    const lenses::LensmeterReading reading = lensmeter.read(lenses::LensSide::back, back);
-    if (reading.status != RayStatus::ok) {
-      return point;
-    }
-    back += point - reading.far_point;
-  }
-  return back;
 }
 
 class LensPictures {

@@ -302,32 +302,6 @@ class Drawing {
 
 }  // namespace
 
-MapScale map_scale(std::vector<double> values, double least_step) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  MapScale scale{0.0, 4.0 * least_step, least_step};
-  if (values.empty()) {
-    return scale;
-  }
-  std::ranges::sort(values);
-  const std::size_t off = values.size() / 200;
-  const double low = values[off], high = values[values.size() - 1 - off];
-  constexpr double kMost = 24.0;
-  for (const double factor : {1.0, 2.0, 4.0, 10.0, 20.0, 40.0, 100.0, 1000.0}) {
-    scale.step = factor * least_step;
-    if ((high - low) / scale.step <= kMost) {
-      break;
-    }
-  }
-  constexpr double kSlack = 1e-6;  // of a step: a value on a line is not beyond it
-  scale.low = std::floor(low / scale.step + kSlack) * scale.step;
-  scale.high = std::ceil(high / scale.step - kSlack) * scale.step;
-  while (scale.high - scale.low < 3.5 * scale.step) {
-    scale.high += scale.step;
-    scale.low -= low >= 0.0 && scale.low - scale.step < -0.5 * scale.step ? 0.0 : scale.step;
-  }
-  return scale;
-}
-
 Image8 draw_map(const MapPicture& map) {
   return Drawing(map).finished();
 }

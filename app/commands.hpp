@@ -17,5 +17,6 @@ using Action = std::function<int()>;
 
 // The commands of `lens`, each in a file of its own.
 [[nodiscard]] Action add_lens_from_prescription_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_progressive_command(CLI::App& lens);
 
 }  // namespace app

@@ -15,6 +15,7 @@ Action add_lens_command(CLI::App& program) {
       "vergence lens COMMAND --help shows a command's options.");
   auto actions = std::make_shared<std::map<std::string, Action>>();
   (*actions)["from-prescription"] = add_lens_from_prescription_command(*lens);
+  (*actions)["progressive"] = add_lens_progressive_command(*lens);
   return [lens, actions] { return actions->at(lens->get_subcommands().front()->get_name())(); };
 }
 

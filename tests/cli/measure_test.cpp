@@ -129,6 +129,25 @@ TEST(Measure, AnOrderByHandIsJudgedByTheNamedStandard) {
   EXPECT_FALSE(passes("prism")) << "0.5 pd are more than 0.33 pd, and than 1 mm of -3.36 D";
 }
 
+// A pair from prescriptions: each side is judged by its own order, and both together by their vertical prisms.
+TEST(Measure, APairIsJudgedForItsVerticalImbalance) {
+  const support::TemporaryFolder folder;
+  const std::string pair = folder.write(
+      "pair.json",
+      R"({"name": "pair", "right": {"prescription": {"sphere": -2, "prism": [{"magnitude": 1, "base": 90}]}},
+      "left": {"prescription": {"sphere": -3, "cylinder": -0.5, "axis": 10}}})");
+  for (const char* side : {"right", "left"}) {
+    const auto result = run_program({.arguments = measure({"--spectacles", pair, "--side", side, "--json"})});
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    const json verdict = json::parse(result.out)["verdict"];
+    EXPECT_TRUE(verdict["pass"].get<bool>()) << result.out;
+    const json& last = verdict["checks"].back();
+    EXPECT_EQ(last["tolerance"], "vertical imbalance");
+    EXPECT_NEAR(last["target"].get<double>(), side == std::string("right") ? 1.0 : -1.0, 1e-9);
+    EXPECT_NEAR(last["difference"].get<double>(), 0.0, 0.01);
+  }
+}
+
 TEST(Measure, WritesNumbersPicturesAndPage) {
   const support::TemporaryFolder folder;
   const std::filesystem::path out = folder.path() / "new" / "report";

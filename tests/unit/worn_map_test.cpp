@@ -87,6 +87,10 @@ TEST(WornLens, GazeThroughAPointMeetsThePoint) {
     const WornLens worn(lens, random.chance(0.5) ? Side::right : Side::left, {});
     const glm::dvec2 point(random.uniform(-0.012, 0.012), random.uniform(-0.012, 0.012));
     const WornReading reading = worn.read(worn.gaze_through(point), 0.0);
+    if (reading.status == RayStatus::miss_front && (std::holds_alternative<lenses::SegmentedSurface>(lens.front) ||
+                                                    std::holds_alternative<lenses::SegmentedSurface>(lens.back))) {
+      continue;  // into the wall of a segment
+    }
     ASSERT_EQ(reading.status, RayStatus::ok);
     EXPECT_NEAR(reading.back_point.x, point.x, 1e-9);
     EXPECT_NEAR(reading.back_point.y, point.y, 1e-9);

@@ -14,11 +14,11 @@ MapScale map_scale(std::vector<double> values, double least_step) {
   std::ranges::sort(values);
   const std::size_t off = values.size() / 200;
   const double low = values[off], high = values[values.size() - 1 - off];
-  constexpr double kMost = 24.0;
-  for (const double factor : {1.0, 2.0, 4.0, 10.0, 20.0, 40.0, 100.0, 1000.0}) {
-    scale.step = factor * least_step;
-    if ((high - low) / scale.step <= kMost) {
-      break;
+  constexpr double kMost = 24.0, kDigits = 1e-9;  // lines; of a value, in which a step still shows
+  const double needed = std::max((high - low) / kMost, kDigits * std::max(std::abs(low), std::abs(high)));
+  for (double decade = least_step; scale.step < needed; decade *= 10.0) {
+    for (const double factor : {1.0, 2.0, 4.0}) {
+      scale.step = std::max(scale.step, scale.step < needed ? factor * decade : 0.0);
     }
   }
   constexpr double kSlack = 1e-6;  // of a step: a value on a line is not beyond it

@@ -127,6 +127,13 @@ TEST(MapScale, IsRoundAndHasRoomForItsLines) {
   scale = app::map_scale({3.0, 3.0, 3.0 + 1e-13}, 0.25);
   EXPECT_GE(scale.high - scale.low, 0.75);
   EXPECT_EQ(app::map_scale({0.0, 0.1}, 0.25).low, 0.0);
+  // Numbers of any size end: neither too many lines nor steps that no longer show.
+  for (const double huge : {1e8, -1e17, 1e300}) {
+    scale = app::map_scale({huge, huge}, 0.25);
+    EXPECT_GT(scale.high, scale.low);
+    scale = app::map_scale({-huge, 0.0, huge}, 0.25);
+    EXPECT_LE((scale.high - scale.low) / scale.step, 26.0);
+  }
   scale = app::map_scale({kNone}, 0.25);
   EXPECT_LT(scale.low, scale.high);
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFittingCross = 0.004, kDistancePoint = 0.008;  // y on a progressive lens, m
 constexpr double kLargestDecentration = 0.02;                    // m
+constexpr double kLeastAddition = 0.75, kMostAddition = 3.5;     // of a progressive surface, D
 constexpr glm::dvec2 kCentre(0.0);
 
 double default_back_radius(ContactKind kind) {
@@ -93,6 +94,7 @@ LensDraft::LensDraft(const LensRequest& request)
     lensmeter_.power = nearer_to_eye(ordered_.power, request_.refraction_vertex);
   }
   base_curve_ = request_.base_curve.value_or(vogel_base_curve(mean_power(lensmeter_)));
+  progressive_addition_ = request_.prescription.addition;
   segment_curvature_ = (base_curve_ + request_.prescription.addition) / (request_.index - 1.0);
   make_fixed_surfaces();
 }
@@ -134,13 +136,14 @@ void LensDraft::make_progressive() {
   config.method = ProgressiveConfig::Method::closed_form;
   config.face = request_.progressive_face;
   config.side = request_.side;
-  config.addition = request_.prescription.addition;
+  config.addition = std::clamp(progressive_addition_, kLeastAddition, kMostAddition);
   config.corridor_length = request_.corridor_length;
   config.inset = request_.inset;
   config.index = request_.index;
   config.fitting_cross = kFittingCross;
   config.distance_point = kDistancePoint;
-  const double t = shape_.lens().centre_thickness / request_.index;
+  progressive_thickness_ = shape_.lens().centre_thickness;
+  const double t = progressive_thickness_ / request_.index;
   const bool front = config.face == ProgressiveConfig::Face::front;
   config.distance_power = front ? base_curve_ : mean_power(lensmeter_) - base_curve_ / (1.0 - t * base_curve_);
   config.diameter = progressive_diameter(config, shape_.lens().diameter);
@@ -162,15 +165,25 @@ double LensDraft::widest() const {
 void LensDraft::set_diameter(double diameter) {
   const bool changed = diameter != shape_.lens().diameter;
   shape_.rest().diameter = diameter;
-  if (changed) {
-    renew();
+  if (changed && request_.design == LensDesign::progressive) {
+    make_progressive();
   }
 }
 
-void LensDraft::renew() {
-  if (request_.design == LensDesign::progressive) {
-    make_progressive();
+bool LensDraft::renew() {
+  constexpr double kSettled = 1e-3;       // D
+  constexpr double kThinnestStep = 1e-4;  // m; changes the base curve by a thousandth
+  if (request_.design != LensDesign::progressive) {
+    return false;
   }
+  const double missing = request_.prescription.addition - read_addition();
+  const double thicker = shape_.lens().centre_thickness - progressive_thickness_;
+  if (std::abs(missing) < kSettled && std::abs(thicker) < kThinnestStep) {
+    return false;
+  }
+  progressive_addition_ += missing;
+  make_progressive();
+  return true;
 }
 
 void LensDraft::set_conic_constant(double conic_constant) {
@@ -283,24 +296,26 @@ void LensDraft::solve(double thickness) {
   }
 }
 
-double LensDraft::segment_addition() const {
-  const auto near = reading_at_front(shape_, *shape_.lens().reference_points.near);
-  const auto distance = reading_at_front(shape_, kCentre);
+// As a lensmeter reads it with the side on its stop that carries it.
+double LensDraft::read_addition() const {
+  const bool on_back = request_.design == LensDesign::progressive && toric_front();
+  const auto read = on_back ? reading_at_back : reading_at_front;
+  const ReferencePoints& points = shape_.lens().reference_points;
+  const auto near = read(shape_, *points.near);
+  const auto distance = read(shape_, *points.distance);
   if (!near || !distance) {
-    throw DesignError("segment_top_mm",
-                      "leaves the near point of the segment where no light passes the lens; a higher "
-                      "segment is possible");
+    throw DesignError(request_.design == LensDesign::bifocal ? "segment_top_mm" : "corridor_mm",
+                      "leaves the near point where no light passes the lens; a higher near point is possible");
   }
   return mean_power(*near) - mean_power(*distance);
 }
 
-// The addition as a lensmeter reads it with the front on its stop: in a few secant steps, as it grows with the
-// segment's curvature all but linearly.
+// The addition grows all but linearly with the segment's curvature: a few steps find it.
 void LensDraft::solve_segment() {
   constexpr double kSettled = 1e-9;
   constexpr int kMostSteps = 20;
   for (int step = 0; step < kMostSteps; ++step) {
-    const double missing = request_.prescription.addition - segment_addition();
+    const double missing = request_.prescription.addition - read_addition();
     if (std::abs(missing) < kSettled) {
       return;
     }
@@ -329,19 +344,16 @@ WornSetup LensDraft::worn_setup() const {
 
 std::optional<PointPower> LensDraft::worn() const {
   const ReferencePoints& points = shape_.lens().reference_points;
-  auto power = worn_power(shape_.lens(), worn_setup(), *points.distance);
+  const WornLens lens(shape_.lens(), worn_setup());
+  auto power = lens.through(*points.distance);
   if (power && *points.prism != *points.distance) {
-    const auto prism = worn_power(shape_.lens(), worn_setup(), *points.prism);
+    const auto prism = lens.through(*points.prism);
     if (!prism) {
       return std::nullopt;
     }
     power->prism = prism->prism;
   }
   return power;
-}
-
-Lens LensDraft::finished() const {
-  return shape_.lens();
 }
 
 }  // namespace lenses::design

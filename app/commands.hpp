@@ -12,5 +12,6 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_render_command(CLI::App& program);
 [[nodiscard]] Action add_bench_command(CLI::App& program);
 [[nodiscard]] Action add_trace_command(CLI::App& program);
+[[nodiscard]] Action add_lens_command(CLI::App& program);
 
 }  // namespace app

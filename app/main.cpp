@@ -26,29 +26,44 @@ int report(std::string message, int status) {
   return status;
 }
 
+// The command as it was given, down to the last of nested ones: its words, and where its options are.
+struct ChosenCommand {
+  const CLI::App* app;
+  std::string words;
+};
+
+ChosenCommand chosen_command(const CLI::App& program) {
+  ChosenCommand chosen{&program, program.get_name()};
+  for (auto below = program.get_subcommands(); !below.empty(); below = chosen.app->get_subcommands()) {
+    chosen = {below.front(), chosen.words + " " + below.front()->get_name()};
+  }
+  return chosen;
+}
+
 // What CLI11 found wrong on the command line, with the option (or the word that is none) in front.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
-  const auto selected = program.get_subcommands();
-  const std::string command = selected.empty() ? "vergence" : "vergence " + selected.front()->get_name();
+  const auto [chosen, command] = chosen_command(program);
+  // A command that is only a family of commands takes one of them, not options.
+  const bool family = chosen->get_require_subcommand_min() > 0;
   const std::string help = "; see " + command + " --help";
   const std::string message = error.what();
   const std::vector<std::string> rest = program.remaining(true);
-  if (!rest.empty() && (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || selected.empty())) {
+  if (!rest.empty() && (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || family)) {
     const bool option = rest.front().starts_with('-');
     return (rest.front().empty() ? "''" : rest.front()) + ": is not " +
-           (option             ? "an option of " + command
-            : selected.empty() ? "a command"
-                               : "expected; " + command + " takes options only") +
+           (option   ? "an option of " + command
+            : family ? (chosen == &program ? "a command" : "a command of " + command)
+                     : "expected; " + command + " takes options only") +
            help;
   }
-  if (selected.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+  if (family && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     return "COMMAND: is missing; one is needed" + help;
   }
   // "Could not convert: --fov = abc"
   if (const std::size_t equals = message.find(" = ");
       dynamic_cast<const CLI::ConversionError*>(&error) != nullptr && equals != std::string::npos) {
     const std::string option = message.substr(message.find('-'), equals - message.find('-'));
-    const CLI::Option* known = selected.empty() ? nullptr : selected.front()->get_option_no_throw(option);
+    const CLI::Option* known = chosen->get_option_no_throw(option);
     const bool whole = known != nullptr && known->get_type_name() != "FLOAT";
     return option + ": '" + message.substr(equals + 3) + "' is not a " +
            (whole ? "whole number in its range" : "number") + help;
@@ -88,6 +103,7 @@ int run(int argc, char** argv) {
   actions["render"] = app::add_render_command(program);
   actions["bench"] = app::add_bench_command(program);
   actions["trace"] = app::add_trace_command(program);
+  actions["lens"] = app::add_lens_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -97,9 +113,8 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report(usage_message(program, error), kBadInput);
   }
-  const CLI::App& command = *program.get_subcommands().front();
-  refuse_empty_values(command);
-  return actions.at(command.get_name())();
+  refuse_empty_values(*chosen_command(program).app);
+  return actions.at(program.get_subcommands().front()->get_name())();
 }
 
 }  // namespace

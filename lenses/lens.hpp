@@ -62,7 +62,29 @@ struct BsplineSurface {
   bool operator==(const BsplineSurface&) const = default;
 };
 
-using Surface = std::variant<Plane, Sphere, Conic, Torus, BsplineHeightField, BsplineSurface>;
+using BasicSurface = std::variant<Plane, Sphere, Conic, Torus, BsplineHeightField, BsplineSurface>;
+
+// Where a surface stands in the lens: z = sag((x, y) - decentration) + slope . (x, y) + height. A slope is what gives a
+// lens prism: about (index - 1) * slope radians, the base where the glass is thicker.
+struct Placement {
+  glm::dvec2 decentration{0.0};  // m
+  glm::dvec2 slope{0.0};         // dz/dx, dz/dy
+  double height = 0.0;           // m
+  bool operator==(const Placement&) const = default;
+};
+
+// A bifocal's surface: inside the boundary the segment counts, outside it the base. Where the two do not meet at the
+// same height the boundary is a ledge; a ray into its wall meets no surface and has status miss_front, on either side
+// of the lens. The lens's placement of the surface moves base and segment together; segment_placement comes on top of
+// it (the decentrations add, so do slopes and heights). The boundary stays in lens axes.
+struct SegmentedSurface {
+  BasicSurface base, segment;
+  Placement segment_placement;
+  std::vector<glm::dvec2> boundary;  // m; a closed polygon of at least 3 points, inside by the even-odd rule
+  bool operator==(const SegmentedSurface&) const = default;
+};
+
+using Surface = std::variant<Plane, Sphere, Conic, Torus, BsplineHeightField, BsplineSurface, SegmentedSurface>;
 
 struct Fit {
   double vertex_distance = 0.013;  // cornea to back vertex, m
@@ -84,6 +106,7 @@ struct Lens {
   double centre_thickness = 0.002;  // m
   double diameter = 0.065;          // m; a hit farther than half of it from the lens axis misses
   Surface front = Plane{}, back = Plane{};
+  Placement front_placement, back_placement;
   Fit fit;
   ReferencePoints reference_points;
   std::vector<glm::dvec2> outline;  // m, empty: round

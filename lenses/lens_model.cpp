@@ -165,7 +165,10 @@ f64::SurfaceData make_surface(const Surface& surface, double semi_diameter, std:
                                [&](const Conic& s) { return make_conic(s, semi_diameter, table); },
                                [&](const Torus& s) { return make_torus(s); },
                                [&](const BsplineHeightField& s) { return make_height_field(s, table); },
-                               [&](const BsplineSurface& s) { return make_parametric(s, table); }},
+                               [&](const BsplineSurface& s) { return make_parametric(s, table); },
+                               [](const SegmentedSurface&) -> f64::SurfaceData {
+                                 throw std::invalid_argument("segmented surfaces are not traced");
+                               }},
                     surface);
 }
 

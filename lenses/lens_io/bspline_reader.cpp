@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lenses/lens_io/placement_reader.hpp"
+
 namespace lenses::io {
 namespace {
 
@@ -69,7 +71,7 @@ bool net_faces_the_eye(const BsplineSurface& surface) {
 }  // namespace
 
 BsplineHeightField read_bspline_height_field(const Field& surface) {
-  surface.allow_only({"type", "knots_x_mm", "knots_y_mm", "control_z_mm"});
+  surface.allow_only({"type", "knots_x_mm", "knots_y_mm", "control_z_mm"}, kPlacementKeys);
   const Limits reach = millimetres(-kReachMm, kReachMm);
   BsplineHeightField result;
   result.knots_x = read_knots(surface, "knots_x_mm", reach);
@@ -82,7 +84,7 @@ BsplineHeightField read_bspline_height_field(const Field& surface) {
 }
 
 BsplineSurface read_bspline_surface(const Field& surface) {
-  surface.allow_only({"type", "knots_u", "knots_v", "control_mm"});
+  surface.allow_only({"type", "knots_u", "knots_v", "control_mm"}, kPlacementKeys);
   BsplineSurface result;
   result.knots_u = read_knots(surface, "knots_u", plain(-1e6, 1e6));
   result.knots_v = read_knots(surface, "knots_v", plain(-1e6, 1e6));

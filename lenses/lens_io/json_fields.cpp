@@ -63,26 +63,27 @@ void Field::require_object() const {
   if (!value_->is_object()) fail_type("an object");
 }
 
-void Field::refuse_unknown(Keys keys, Keys more) const {
+void Field::refuse_unknown(Keys keys, Keys more, Keys unnamed) const {
   require_object();
   for (const auto& [key, unused] : value_->items()) {
-    const bool known = std::find(keys.begin(), keys.end(), key) != keys.end() ||
-                       std::find(more.begin(), more.end(), key) != more.end() || is_annotation(key);
-    if (known) continue;
+    const auto is_key = [&key](Keys list) { return std::find(list.begin(), list.end(), key) != list.end(); };
+    if (is_key(keys) || is_key(more) || is_key(unnamed) || is_annotation(key)) continue;
     std::string allowed;
-    for (const std::string_view name : keys) allowed += (allowed.empty() ? "" : ", ") + std::string(name);
+    for (const Keys& list : {keys, more}) {
+      for (const std::string_view name : list) allowed += (allowed.empty() ? "" : ", ") + std::string(name);
+    }
     Field(*value_, *source_, join_path(path_, key)).fail("is an unknown key; allowed: " + allowed);
   }
 }
 
-void Field::allow_only(Keys keys) const {
-  refuse_unknown(keys, {});
+void Field::allow_only(Keys keys, Keys more) const {
+  refuse_unknown(keys, more, {});
 }
 
 void Field::allow_only_in_root(Keys keys) const {
   require_object();
   check_version();
-  refuse_unknown(keys, {"$schema", "name", "version"});
+  refuse_unknown(keys, {}, {"$schema", "name", "version"});
 }
 
 // Before unknown keys: what a newer version added is better explained by its number.

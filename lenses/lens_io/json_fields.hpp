@@ -53,7 +53,7 @@ class Field {
 
   // Objects. Members whose name starts with "_" and members called comment or note are for people and pass everywhere.
   using Keys = std::initializer_list<std::string_view>;
-  void allow_only(Keys keys) const;
+  void allow_only(Keys keys, Keys more = {}) const;
   // The same for what may be a file of its own: $schema, name and version pass too, and version is checked.
   void allow_only_in_root(Keys keys) const;
   [[nodiscard]] std::optional<Field> find(std::string_view key) const;
@@ -87,7 +87,8 @@ class Field {
 
  private:
   void require_object() const;
-  void refuse_unknown(Keys keys, Keys more) const;
+  // A message names keys and more as what is allowed, not the unnamed ones.
+  void refuse_unknown(Keys keys, Keys more, Keys unnamed) const;
   void check_version() const;
   void require_array(std::size_t fewest, std::size_t most, const std::string& of_what) const;
   [[nodiscard]] Field element(std::size_t index) const;

@@ -1,9 +1,10 @@
 #include "lenses/lens_io/lens_reader.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lenses/lens_io/lens_io.hpp"
+#include "lenses/lens_io/placement_reader.hpp"
+#include "lenses/lens_io/polygon_reader.hpp"
 #include "lenses/lens_io/surface_reader.hpp"
 
 namespace lenses {
@@ -37,18 +38,7 @@ ReferencePoints read_reference_points(const Field& object) {
 
 std::vector<glm::dvec2> read_outline(const Field& object) {
   object.allow_only({"polygon_mm"});
-  const Field polygon = object.require("polygon_mm", "an array of [x, y] points");
-  std::vector<glm::dvec2> points;
-  for (const Field& point : polygon.elements(3, kMostOutlinePoints, "[x, y] points")) {
-    points.push_back(point.pair(millimetres(-kLargestDiameterMm, kLargestDiameterMm)));
-  }
-  double doubled_area = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const glm::dvec2 &a = points[i], &b = points[(i + 1) % points.size()];
-    doubled_area += a.x * b.y - a.y * b.x;
-  }
-  if (std::abs(doubled_area) < 1e-12) polygon.fail("encloses no area; at least 3 points off one line are needed");
-  return points;
+  return read_polygon(object.require("polygon_mm", "an array of [x, y] points"), kMostOutlinePoints);
 }
 
 // The other way to describe a lens: by what it does. Its keys are known, so that they are not called unknown.
@@ -73,8 +63,12 @@ Lens read_lens_object(const Field& object) {
   object.read("abbe", plain(5.0, 200.0), lens.abbe);
   lens.centre_thickness = object.required_number("centre_thickness_mm", millimetres(0.0, 200.0));
   lens.diameter = object.required_number("diameter_mm", {0.0, kLargestDiameterMm, Limits::Unit::millimetres, true});
-  lens.front = read_surface(object.require("front", "a surface"));
-  lens.back = read_surface(object.require("back", "a surface"));
+  const Field front = object.require("front", "a surface");
+  lens.front = read_surface(front);
+  lens.front_placement = read_placement(front);
+  const Field back = object.require("back", "a surface");
+  lens.back = read_surface(back);
+  lens.back_placement = read_placement(back);
   if (const auto fit = object.find("fit")) lens.fit = read_fit(*fit);
   if (const auto points = object.find("reference_points_mm")) lens.reference_points = read_reference_points(*points);
   if (const auto outline = object.find("outline")) lens.outline = read_outline(*outline);

@@ -40,6 +40,17 @@ ordered_json net(const Values& values, std::size_t row_length, Write write) {
   return rows;
 }
 
+// A surface object with what its placement departs from the neutral one.
+ordered_json placed(ordered_json surface, const Placement& placement) {
+  const Placement neutral;
+  if (placement.decentration != neutral.decentration) surface["decentration_mm"] = mm(placement.decentration);
+  if (placement.slope != neutral.slope) {
+    surface["slope"] = ordered_json::array({written(placement.slope.x), written(placement.slope.y)});
+  }
+  if (placement.height != neutral.height) surface["height_mm"] = written_mm(placement.height);
+  return surface;
+}
+
 struct SurfaceWriter {
   ordered_json operator()(const Plane&) const { return {{"type", "plane"}}; }
 
@@ -79,6 +90,13 @@ struct SurfaceWriter {
             {"knots_v", list(s.knots_v, written)},
             {"control_mm", net(s.control, s.count_v(), [](const glm::dvec3& p) { return mm(p); })}};
   }
+
+  ordered_json operator()(const SegmentedSurface& s) const {
+    return {{"type", "segment"},
+            {"base", std::visit(*this, s.base)},
+            {"segment", placed(std::visit(*this, s.segment), s.segment_placement)},
+            {"boundary_mm", list(s.boundary, [](const glm::dvec2& p) { return mm(p); })}};
+  }
 };
 
 ordered_json points_object(const ReferencePoints& points) {
@@ -98,8 +116,8 @@ ordered_json lens_object(const Lens& lens) {
                          {"abbe", written(lens.abbe)},
                          {"centre_thickness_mm", written_mm(lens.centre_thickness)},
                          {"diameter_mm", written_mm(lens.diameter)},
-                         {"front", std::visit(SurfaceWriter{}, lens.front)},
-                         {"back", std::visit(SurfaceWriter{}, lens.back)},
+                         {"front", placed(std::visit(SurfaceWriter{}, lens.front), lens.front_placement)},
+                         {"back", placed(std::visit(SurfaceWriter{}, lens.back), lens.back_placement)},
                          {"fit",
                           {{"vertex_distance_mm", written_mm(lens.fit.vertex_distance)},
                            {"decentration_mm", mm(lens.fit.decentration)},

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "lenses/lens_io/bspline_reader.hpp"
+#include "lenses/lens_io/placement_reader.hpp"
+#include "lenses/lens_io/polygon_reader.hpp"
 #include "lenses/lens_io/units.hpp"
 
 namespace lenses::io {
@@ -13,7 +15,11 @@ namespace {
 constexpr double kLeastRadiusMm = 1e-3;
 constexpr std::size_t kMostEvenCoefficients = 8;
 
-constexpr const char* kTypes = "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\"";
+constexpr std::size_t kMostBoundaryPoints = 512;
+
+constexpr const char* kBasicTypes = "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\"";
+constexpr const char* kTypes =
+    "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\" \"segment\"";
 
 double read_curvature(const Field& surface, std::string_view key) {
   const std::string expected =
@@ -27,12 +33,13 @@ double read_curvature(const Field& surface, std::string_view key) {
 }
 
 Sphere read_sphere(const Field& surface) {
-  surface.allow_only({"type", "radius_mm"});
+  surface.allow_only({"type", "radius_mm"}, kPlacementKeys);
   return {read_curvature(surface, "radius_mm")};
 }
 
 Conic read_conic(const Field& surface) {
-  surface.allow_only({"type", "radius_mm", "conic_constant", "even_coefficients", "even_coefficients_mm"});
+  surface.allow_only({"type", "radius_mm", "conic_constant", "even_coefficients", "even_coefficients_mm"},
+                     kPlacementKeys);
   Conic conic;
   conic.curvature = read_curvature(surface, "radius_mm");
   surface.read("conic_constant", plain(-1e4, 1e4), conic.conic_constant);
@@ -52,7 +59,7 @@ Conic read_conic(const Field& surface) {
 }
 
 Torus read_torus(const Field& surface) {
-  surface.allow_only({"type", "radius_u_mm", "radius_v_mm", "axis_deg", "revolve"});
+  surface.allow_only({"type", "radius_u_mm", "radius_v_mm", "axis_deg", "revolve"}, kPlacementKeys);
   Torus torus;
   torus.curvature_u = read_curvature(surface, "radius_u_mm");
   torus.curvature_v = read_curvature(surface, "radius_v_mm");
@@ -63,13 +70,12 @@ Torus read_torus(const Field& surface) {
   return torus;
 }
 
-}  // namespace
-
-Surface read_surface(const Field& surface) {
-  const Field type = surface.require("type", kTypes);
-  const std::string& name = type.text(kTypes);
+// What a bifocal's base and segment may be.
+BasicSurface read_basic_surface(const Field& surface, const char* types) {
+  const Field type = surface.require("type", types);
+  const std::string& name = type.text(types);
   if (name == "plane") {
-    surface.allow_only({"type"});
+    surface.allow_only({"type"}, kPlacementKeys);
     return Plane{};
   }
   if (name == "sphere") return read_sphere(surface);
@@ -77,10 +83,31 @@ Surface read_surface(const Field& surface) {
   if (name == "torus") return read_torus(surface);
   if (name == "bspline") return read_bspline_height_field(surface);
   if (name == "bspline_surface") return read_bspline_surface(surface);
-  if (name == "file" || name == "segment") {
-    type.fail("\"" + name + "\" surfaces are not read in this version; must be " + kTypes);
+  if (name == "file") type.fail("\"file\" surfaces are not read in this version; must be " + std::string(types));
+  type.fail_type(types);
+}
+
+SegmentedSurface read_segmented(const Field& surface) {
+  surface.allow_only({"type", "base", "segment", "boundary_mm"}, kPlacementKeys);
+  const Field base = surface.require("base", "a surface");
+  const Field segment = surface.require("segment", "a surface");
+  SegmentedSurface result{
+      read_basic_surface(base, kBasicTypes), read_basic_surface(segment, kBasicTypes), read_placement(segment), {}};
+  for (const std::string_view key : kPlacementKeys) {
+    if (const auto found = base.find(key)) {
+      found->fail("is not allowed on a base; allowed on the whole surface, beside base, and on its segment");
+    }
   }
-  type.fail_type(kTypes);
+  result.boundary = read_polygon(surface.require("boundary_mm", "an array of [x, y] points"), kMostBoundaryPoints);
+  return result;
+}
+
+}  // namespace
+
+Surface read_surface(const Field& surface) {
+  const Field type = surface.require("type", kTypes);
+  if (type.text(kTypes) == "segment") return read_segmented(surface);
+  return std::visit([](auto&& basic) { return Surface(std::move(basic)); }, read_basic_surface(surface, kTypes));
 }
 
 }  // namespace lenses::io

@@ -5,7 +5,7 @@
 
 namespace lenses::io {
 
-// A surface object of a lens file, by its "type".
+// A surface object of a lens file, by its "type"; where it stands is read_placement's.
 [[nodiscard]] Surface read_surface(const Field& surface);
 
 }  // namespace lenses::io

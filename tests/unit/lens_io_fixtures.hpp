@@ -47,6 +47,14 @@ inline json bspline_surface() {
           {"control_mm", rows}};
 }
 
+inline json segment_surface() {
+  return json::parse(R"({"type": "segment", "base": {"type": "sphere", "radius_mm": 88},
+    "segment": {"type": "torus", "radius_u_mm": 60, "radius_v_mm": 61, "axis_deg": 30, "revolve": "u",
+      "decentration_mm": [2.5, -8], "slope": [0.01, -0.02], "height_mm": 0.05},
+    "boundary_mm": [[-11.5, -3], [16.5, -3], [14, -14], [2.5, -17.25], [-9, -14]], "decentration_mm": [1, 0],
+    "slope": [0.03, 0.04], "height_mm": -0.1})");
+}
+
 inline json good_lens() {
   json lens = json::parse(R"({"version": 1, "name": "a lens", "index": 1.6, "abbe": 41, "centre_thickness_mm": 2.0,
     "diameter_mm": 65, "fit": {"vertex_distance_mm": 12, "decentration_mm": [1, -2], "pantoscopic_tilt_deg": 8,

@@ -124,8 +124,13 @@ TEST(LensReader, NamesTheFieldOfEverySurfaceError) {
           {"/front/type", "-", "front.type", "is missing"},
           {"/front/type", "\"Sphere\"", "front.type", "one of \"plane\" \"sphere\" \"conic\" \"torus\""},
           {"/front/type", "\"file\"", "front.type", "not read in this version"},
-          {"/front/type", "\"segment\"", "front.type", "not read in this version"},
-          {"/front/type", "\"plane\"", "front.radius_mm", "is an unknown key; allowed: type"},
+          {"/front/type", "\"segment\"", "front.radius_mm", "allowed: type, base, segment, boundary_mm"},
+          {"/front/type", "\"plane\"", "front.radius_mm",
+           "is an unknown key; allowed: type, decentration_mm, slope, height_mm"},
+          {"/front/slope", "[3, 0]", "front.slope[0]", "is 3; must be a number from -2 to 2"},
+          {"/front/slope", "0.1", "front.slope", "must be an array of 2 numbers"},
+          {"/front/height_mm", "101", "front.height_mm", "from -100 to 100"},
+          {"/back/decentration_mm", "[0, -101]", "back.decentration_mm[1]", "from -100 to 100"},
           {"/front/type", "3", "front.type", "is 3"},
           {"/front/radius_mm", "0", "front.radius_mm", "at least 0.001 in magnitude"},
           {"/front/radius_mm", "\"flat\"", "front.radius_mm", "null for flat"},
@@ -142,6 +147,42 @@ TEST(LensReader, NamesTheFieldOfEverySurfaceError) {
                          {"/back/even_coefficients", "[1]", "back.even_coefficients_mm", "only one of the two"},
                          {"/back/even_coefficients_mm/1", "2", "back.even_coefficients_mm[1]", "from -1 to 1"},
                      });
+}
+
+TEST(LensReader, NamesTheFieldOfEverySegmentError) {
+  expect_all_refused(
+      kLens, lens_with_back(segment_surface()),
+      {
+          {"/back/base", "-", "back.base", "is missing; must be a surface"},
+          {"/back/segment", "-", "back.segment", "is missing; must be a surface"},
+          {"/back/boundary_mm", "-", "back.boundary_mm", "is missing"},
+          {"/back/base", "3", "back.base", "is 3; must be an object"},
+          {"/back/base/radius_mm", "0", "back.base.radius_mm", "at least 0.001"},
+          {"/back/base/slope", "[0, 0]", "back.base.slope", "is not allowed on a base"},
+          {"/back/base", R"({"type": "file"})", "back.base.type", "not read in this version"},
+          {"/back/segment/type", "\"segment\"", "back.segment.type",
+           "is \"segment\"; must be one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\""},
+          {"/back/segment/radius", "1", "back.segment.radius", "is an unknown key"},
+          {"/back/segment/slope/1", "null", "back.segment.slope[1]", "is null"},
+          {"/back/boundary_mm", "[[0, 0], [1, 0]]", "back.boundary_mm", "3 to 512"},
+          {"/back/boundary_mm", "[[0, 0], [1, 1], [3, 3]]", "back.boundary_mm", "encloses no area"},
+          {"/back/boundary_mm/4/1", "501", "back.boundary_mm[4][1]", "from -500 to 500"},
+      });
+  json long_boundary = segment_surface();
+  for (int i = 0; i < 513; ++i) long_boundary["boundary_mm"][static_cast<std::size_t>(i)] = {i, i % 7};
+  expect_refused(kLens, lens_with_back(long_boundary).dump(), "back.boundary_mm", "3 to 512");
+}
+
+TEST(LensReader, ReadsWhereSurfacesStand) {
+  const lenses::Lens lens = lenses::parse_lens(lens_with_back(segment_surface()).dump(), "f.json");
+  EXPECT_EQ(lens.front_placement, lenses::Placement{}) << "in the lens's own axes unless told";
+  EXPECT_EQ(lens.back_placement, (lenses::Placement{{0.001, 0.0}, {0.03, 0.04}, -0.0001}));
+  const auto& surface = std::get<lenses::SegmentedSurface>(lens.back);
+  EXPECT_DOUBLE_EQ(std::get<lenses::Sphere>(surface.base).curvature, 1.0 / 0.088);
+  EXPECT_DOUBLE_EQ(std::get<lenses::Torus>(surface.segment).curvature_v, 1.0 / 0.061);
+  EXPECT_EQ(surface.segment_placement, (lenses::Placement{{0.0025, -0.008}, {0.01, -0.02}, 0.00005}));
+  ASSERT_EQ(surface.boundary.size(), 5u);
+  EXPECT_EQ(surface.boundary[3], glm::dvec2(0.0025, -0.01725));
 }
 
 TEST(LensReader, NamesTheFieldOfEverySplineError) {

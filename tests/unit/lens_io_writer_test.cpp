@@ -40,7 +40,7 @@ void expect_same(const json& a, const json& b, const std::string& path) {
 
 TEST(Writers, ReadBackTheSame) {
   for (const json& back : {json::parse(kSphere), json::parse(kTorus), json::parse(kConic), bspline(), bspline_surface(),
-                           json{{"type", "plane"}}}) {
+                           segment_surface(), json{{"type", "plane"}}}) {
     json wanted = lens_with_back(back);
     wanted.erase("name");
     wanted.erase("_maker");
@@ -51,6 +51,10 @@ TEST(Writers, ReadBackTheSame) {
   }
   const std::string pair = lenses::to_json(lenses::parse_spectacles(good_spectacles().dump(), "f.json"));
   EXPECT_EQ(lenses::to_json(lenses::parse_spectacles(pair, "f.json")), pair);
+  lenses::Lens segmented = lenses::parse_lens(lens_with_back(segment_surface()).dump(), "f.json");
+  segmented.front_placement.slope.y = 1.0 / 3.0;
+  EXPECT_EQ(lenses::parse_lens(lenses::to_json(segmented), "f.json").back, segmented.back);
+  EXPECT_EQ(lenses::parse_lens(lenses::to_json(segmented), "f.json").front_placement, segmented.front_placement);
   const std::string wearer = lenses::to_json(lenses::parse_wearer(good_wearer().dump(), "f.json"));
   EXPECT_EQ(lenses::to_json(lenses::parse_wearer(wearer, "f.json")), wearer);
   EXPECT_NE(wearer.find("\"coefficients\": [0, 0, 0, 0.1, -0.2]"), std::string::npos) << "short decimals stay\n"
@@ -147,7 +151,7 @@ TEST(Schemas, NameTheKeysThatReadersAllow) {
   headset.erase("name");
   EXPECT_EQ(allowed_keys(kHeadset, unknown), headset);
   for (const json& surface : {json::parse(kSphere), json::parse(kTorus), json::parse(kConic), bspline(),
-                              bspline_surface(), json{{"type", "plane"}}}) {
+                              bspline_surface(), segment_surface(), json{{"type", "plane"}}}) {
     const std::string type = surface.at("type");
     EXPECT_EQ(allowed_keys(kLens, in("/back", lens_with_back(surface))), schema("lens", "/$defs/" + type)) << type;
   }

@@ -1,0 +1,20 @@
+// vergence lens: makes, converts and checks lens files, each by a command of its own.
+#include <map>
+#include <memory>
+#include <string>
+
+#include "app/commands.hpp"
+
+namespace app {
+
+Action add_lens_command(CLI::App& program) {
+  CLI::App* lens = program.add_subcommand("lens", "Make, convert and check lens files");
+  lens->require_subcommand(1);
+  lens->footer(
+      "Example: vergence lens from-prescription --sphere -2.25 --cylinder -0.75 --axis 175 --output right.json\n"
+      "vergence lens COMMAND --help shows a command's options.");
+  auto actions = std::make_shared<std::map<std::string, Action>>();
+  return [lens, actions] { return actions->at(lens->get_subcommands().front()->get_name())(); };
+}
+
+}  // namespace app

@@ -2,12 +2,14 @@
 
 #include <cmath>
 
-#include "assets/generator/progressive_surface.hpp"
+#include "lenses/bspline_field.hpp"
+#include "lenses/design/progressive_family.hpp"
 
 namespace assets {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using lenses::BsplineHeightField;
 
 // MR-8.
 constexpr double kIndex = 1.6;
@@ -49,21 +51,21 @@ Json worn_upright(double decentration_y) {
           {"wrap_deg", 0}};
 }
 
-Json net_surface(const BsplineNet& net) {
+Json net_surface(const BsplineHeightField& net) {
   Json knots = Json::array(), rows = Json::array();
-  for (const double knot : net.knots) knots.push_back(net_mm(knot));
-  for (std::size_t i = 0; i < net.count(); ++i) {
+  for (const double knot : net.knots_x) knots.push_back(net_mm(knot));
+  for (std::size_t i = 0; i < net.count_x(); ++i) {
     Json row = Json::array();
-    for (std::size_t j = 0; j < net.count(); ++j) row.push_back(net_mm(net.control[i * net.count() + j]));
+    for (std::size_t j = 0; j < net.count_y(); ++j) row.push_back(net_mm(net.control_z[i * net.count_y() + j]));
     rows.push_back(std::move(row));
   }
   return {{"type", "bspline"}, {"knots_x_mm", knots}, {"knots_y_mm", knots}, {"control_z_mm", rows}};
 }
 
 // A progressive lens whose distance zone corrects 0.00 / cylinder x axis (TABO); nose_x: -1 right lens, +1 left lens.
-Json progressive_lens(const BsplineNet& front, int nose_x, double cylinder, double axis_deg) {
+Json progressive_lens(const BsplineHeightField& front, int nose_x, double cylinder, double axis_deg) {
   constexpr double kThickness = 0.002;
-  const ProgressiveConfig design;
+  const lenses::ProgressiveFamilyConfig design;
   const double front_power = front_vertex_power(design.distance_power, kThickness);
   Json lens{{"index", kIndex}, {"abbe", kAbbe}, {"centre_thickness_mm", tenths_mm(kThickness)}, {"diameter_mm", 64}};
   lens["front"] = net_surface(front);
@@ -103,9 +105,9 @@ std::string pair_text(const std::string& name, const Json& right, const Json& le
 
 }  // namespace
 
-BsplineNet progressive_front_right() {
-  const ProgressiveSurface surface;
-  return fit_bspline([&](double x, double y) { return surface.height(-x, y); }, 50, 0.035);
+BsplineHeightField progressive_front_right() {
+  const lenses::ProgressiveFamily surface;
+  return lenses::fit_height_field([&](double x, double y) { return surface.height(-x, y); }, 50, 0.035);
 }
 
 Json single_vision_lens(const SingleVision& order) {
@@ -122,7 +124,7 @@ Json single_vision_lens(const SingleVision& order) {
 }
 
 std::map<std::string, std::string> spectacles_files() {
-  const BsplineNet right = progressive_front_right(), left = mirrored(right);
+  const BsplineHeightField right = progressive_front_right(), left = mirrored(right);
   const auto both = [](const std::string& name, const SingleVision& order) {
     const Json lens = single_vision_lens(order);
     return pair_text(name, lens, lens);

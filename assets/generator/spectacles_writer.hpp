@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "assets/generator/bspline_fit.hpp"
+#include "lenses/lens.hpp"
 
 namespace assets {
 
 // The right lens's progressive front: the closed form in the wearer's axes (x mirrored), near zone toward -x.
-[[nodiscard]] BsplineNet progressive_front_right();
+[[nodiscard]] lenses::BsplineHeightField progressive_front_right();
 
 // Lenses of single vision from their order (TABO), in the wearer's axes: back vertex power
 // F1 / (1 - t F1 / n) + F2 in both meridians is the order's.

@@ -1,6 +1,6 @@
 // The closed-form progressive front, its B-spline fit, and the example spectacles made of it. The figures (distance
 // point, near point, 85 % of the addition, peak cylinder, the fit's deviations) were computed independently of this
-// code from the formulas at the head of progressive_surface.hpp.
+// code from the formulas at the head of progressive_family.hpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "assets/generator/bspline_fit.hpp"
-#include "assets/generator/progressive_surface.hpp"
 #include "assets/generator/spectacles_writer.hpp"
+#include "lenses/bspline_field.hpp"
+#include "lenses/design/progressive_family.hpp"
 
 namespace {
 
 using Height = std::function<double(double, double)>;
+using lenses::BsplineHeightField;
 using nlohmann::json;
 
 constexpr double kIndex = 1.6;
@@ -40,12 +41,16 @@ SurfacePower surface_power(const Height& z, double x, double y) {
 }
 
 Height closed_form() {
-  return [surface = assets::ProgressiveSurface()](double x, double y) { return surface.height(x, y); };
+  return [surface = lenses::ProgressiveFamily()](double x, double y) { return surface.height(x, y); };
+}
+
+double height(const BsplineHeightField& net, double x, double y) {
+  return lenses::HeightFieldReader(net).at({x, y}).z;
 }
 
 // The fit in the coordinates of the closed form (x mirrored back).
 Height fitted() {
-  return [net = assets::progressive_front_right()](double x, double y) { return net.height(-x, y); };
+  return [net = assets::progressive_front_right()](double x, double y) { return height(net, -x, y); };
 }
 
 // Calls f at every point of a square grid (step in metres) inside a disc.
@@ -66,11 +71,12 @@ json read_json(const std::string& path) {
   return json::parse(stream);
 }
 
-assets::BsplineNet net_of(const json& surface) {
-  assets::BsplineNet net;
-  for (const json& knot : surface.at("knots_x_mm")) net.knots.push_back(1e-3 * knot.get<double>());
+BsplineHeightField net_of(const json& surface) {
+  BsplineHeightField net;
+  for (const json& knot : surface.at("knots_x_mm")) net.knots_x.push_back(1e-3 * knot.get<double>());
+  net.knots_y = net.knots_x;
   for (const json& row : surface.at("control_z_mm")) {
-    for (const json& z : row) net.control.push_back(1e-3 * z.get<double>());
+    for (const json& z : row) net.control_z.push_back(1e-3 * z.get<double>());
   }
   return net;
 }
@@ -83,7 +89,7 @@ TEST(ClosedForm, PowersAtTheReferencePoints) {
 
 TEST(ClosedForm, MeridianIsUmbilicAndReaches85PercentOfTheAddition) {
   const Height z = closed_form();
-  const assets::ProgressiveConfig config;
+  const lenses::ProgressiveFamilyConfig config;
   double reached_at = 0.0;
   for (double below = 0.0; below < 0.025; below += 5e-5) {
     const double x = below * std::sin(config.inset), y = config.fitting_cross - below * std::cos(config.inset);
@@ -109,8 +115,8 @@ TEST(ClosedForm, PeakCylinderAndCorridorWidth) {
 
 TEST(BsplineFit, ReproducesACubicExactly) {
   const Height cubic = [](double x, double y) { return 2.0 * x * x + 30.0 * x * y * y - 5.0 * y * y * y; };
-  const assets::BsplineNet net = assets::fit_bspline(cubic, 20, 0.03);
-  over_disc(0.03, 1.7e-3, [&](double x, double y) { EXPECT_NEAR(net.height(x, y), cubic(x, y), 1e-15); });
+  const BsplineHeightField net = lenses::fit_height_field(cubic, 20, 0.03);
+  over_disc(0.03, 1.7e-3, [&](double x, double y) { EXPECT_NEAR(height(net, x, y), cubic(x, y), 1e-15); });
 }
 
 TEST(BsplineFit, HeightPowerAndCylinderOfTheFit) {
@@ -128,25 +134,26 @@ TEST(BsplineFit, HeightPowerAndCylinderOfTheFit) {
 }
 
 TEST(ProgressiveLens, AgreesWithTheReferenceLens) {
-  const assets::BsplineNet ours = assets::progressive_front_right();
-  const assets::BsplineNet reference =
+  const BsplineHeightField ours = assets::progressive_front_right();
+  const BsplineHeightField reference =
       net_of(read_json(std::string(VERGENCE_TEST_DATA) + "/progressive_add200_right.json").at("front"));
-  ASSERT_EQ(ours.count(), reference.count());
+  ASSERT_EQ(ours.count_x(), reference.count_x());
   double worst = 0.0;
-  over_disc(0.030, 5e-4,
-            [&](double x, double y) { worst = std::max(worst, std::abs(ours.height(x, y) - reference.height(x, y))); });
+  over_disc(0.030, 5e-4, [&](double x, double y) {
+    worst = std::max(worst, std::abs(height(ours, x, y) - height(reference, x, y)));
+  });
   EXPECT_LT(worst, 0.5e-6);
 }
 
 TEST(ProgressiveLens, NearZoneIsNasalAndTheLeftLensIsTheMirrorImage) {
-  const assets::BsplineNet right = assets::progressive_front_right(), left = assets::mirrored(right);
+  const BsplineHeightField right = assets::progressive_front_right(), left = lenses::mirrored(right);
   // The wearer's right eye has its nose toward -x.
-  const auto mean = [](const assets::BsplineNet& net, double x) {
-    return surface_power([&](double a, double b) { return net.height(a, b); }, x, -0.010).mean;
+  const auto mean = [](const BsplineHeightField& net, double x) {
+    return surface_power([&](double a, double b) { return height(net, a, b); }, x, -0.010).mean;
   };
   EXPECT_GT(mean(right, -0.006), mean(right, 0.006) + 0.3);
   EXPECT_GT(mean(left, 0.006), mean(left, -0.006) + 0.3);
-  over_disc(0.030, 2e-3, [&](double x, double y) { EXPECT_NEAR(left.height(x, y), right.height(-x, y), 1e-16); });
+  over_disc(0.030, 2e-3, [&](double x, double y) { EXPECT_NEAR(height(left, x, y), height(right, -x, y), 1e-16); });
 }
 
 // Back vertex power of a vertex section, from the radii in a file.
@@ -194,9 +201,9 @@ TEST(Spectacles, CommittedFilesAreWhatTheGeneratorWrites) {
       json left = a.at(side), made = b.at(side);
       if (made.at("front").at("type") == "bspline") {
         // Another compiler's rounding may move a control point's last digit.
-        const assets::BsplineNet x = net_of(left.at("front")), y = net_of(made.at("front"));
-        ASSERT_EQ(x.control.size(), y.control.size()) << path;
-        for (std::size_t i = 0; i < x.control.size(); ++i) EXPECT_NEAR(x.control[i], y.control[i], 1e-11) << path;
+        const BsplineHeightField x = net_of(left.at("front")), y = net_of(made.at("front"));
+        ASSERT_EQ(x.control_z.size(), y.control_z.size()) << path;
+        for (std::size_t i = 0; i < x.control_z.size(); ++i) EXPECT_NEAR(x.control_z[i], y.control_z[i], 1e-11) << path;
         left.erase("front");
         made.erase("front");
       }

@@ -22,7 +22,8 @@ struct Prescription {
 // What a finished lens is judged against.
 struct Order {
   Prescription ordered;
-  std::optional<Prescription> compensated;  // verification power: what a lensmeter should read, where it is not `ordered`
+  std::optional<Prescription>
+      compensated;  // verification power: what a lensmeter should read, where it is not `ordered`
   bool operator==(const Order&) const = default;
 };
 

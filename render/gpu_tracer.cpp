@@ -31,8 +31,8 @@ std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
     if (lens.glass.w == 0.0) {
       continue;
     }
-    kinds |= 1U << static_cast<unsigned>(lens.back.kind.x);
-    kinds |= 1U << static_cast<unsigned>(16 + lens.front.kind.x);
+    kinds |= static_cast<std::uint32_t>(lens.back.parts.w);
+    kinds |= static_cast<std::uint32_t>(lens.front.parts.w) << 16U;
   }
   return kinds;
 }

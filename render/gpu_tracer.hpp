@@ -24,8 +24,8 @@ class GpuTracer {
   std::map<std::uint32_t, vk::Kernel> kernels_;  // by surface kinds
 };
 
-// Bit k is set if some lens has a back surface of kind k, bit 16 + k a front: the specialisation constant
-// kSurfaceKinds.
+// Bit k is set if some lens has a back surface of kind k or with feature k (kPlaced, kSegmented), bit 16 + k a front:
+// the specialisation constant kSurfaceKinds.
 [[nodiscard]] std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses);
 
 }  // namespace render

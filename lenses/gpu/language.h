@@ -7,7 +7,8 @@
 // BACK_KINDS, FRONT_KINDS: bit k is set if any lens has a back or front surface of kind k; a shader may define them as
 // specialisation constants, so that code for kinds that no lens has is never compiled. KINDS_PARAM / KINDS(k) hand them
 // on to the functions that look at one surface: a device that takes both sides of a branch then evaluates no spline for
-// a spherical back. KIND_USED and IS_KIND ask inside such a function.
+// a spherical back. KIND_USED and IS_KIND ask inside such a function. Placement and segments have bits of their own, so
+// that lenses without them pay nothing.
 
 #ifdef __cplusplus
 
@@ -37,8 +38,11 @@
 #define KINDS_PARAM uint kinds,
 #define KINDS(k) k,
 #define KIND_USED(k) ((kinds & (1u << uint(k))) != 0u)
-#define IS_KIND(s, k) (KIND_USED(k) && (kinds == (1u << uint(k)) || (s).kind.x == (k)))
+#define IS_KIND(s, k) (KIND_USED(k) && ((kinds & kShapeBits) == (1u << uint(k)) || (s).kind.x == (k)))
 #define LENS_USED (BACK_KINDS != 0u)
 const float kEpsilon = 1.1920929e-7;
 
 #endif
+
+#define IS_PLACED(s) (KIND_USED(kPlaced) && (s).shift.w != real(0))
+#define IS_SEGMENTED(s) (KIND_USED(kSegmented) && (s).parts.z > 0)

@@ -83,7 +83,10 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   real semi_diameter = lens.glass.z;
   SurfaceHit back = intersect_surface(TABLE KINDS(BACK_KINDS) lens.back, start, direction, semi_diameter);
   vec3 p = start + back.t * direction;
-  if (!back.found || !(p.x * p.x + p.y * p.y <= semi_diameter * semi_diameter)) {
+  bool within = p.x * p.x + p.y * p.y <= semi_diameter * semi_diameter;
+  if (!back.found || !within) {
+    // In the wall of a ledge light is stopped as at the rim; only what passes beside the lens misses the back.
+    path.status = back.ledge && within ? kStatusMissFront : kStatusMissBack;
     return path;
   }
   path.back = back.point;

@@ -11,6 +11,9 @@ const int kConic = 2;
 const int kTorus = 3;
 const int kBsplineHeightField = 4;
 const int kBsplineSurface = 5;
+const uint kShapeBits = 0x3fu;  // of KINDS: the shapes above
+const int kPlaced = 6;          // of KINDS: some surface is decentred, sloped or lifted
+const int kSegmented = 7;       // of KINDS: some surface has a segment
 
 const int kLookupSize = 32;  // inverse map of a parametric surface: kLookupSize^2 start values of (u, v)
 
@@ -20,6 +23,10 @@ struct SurfaceData {
   vec4 domain;   // x0, x1, y0, y1 of a patch (parametric: of its bounding box)
   ivec4 kind;    // kind, number of even terms, cells along u, cells along v
   ivec4 offset;  // into the table: coefficients, breaks along u, breaks along v, inverse lookup
+  vec4 shift;    // of a placed surface: decentration, height, 1; else 0
+  vec4 slope;    // of a placed surface: its slope, -, -
+  ivec4 parts;   // into the table: the segment's surface and boundary; the boundary's edges, 0 without a segment; KINDS
+                 // of base and segment together
 };
 
 struct SurfacePoint {
@@ -233,7 +240,8 @@ VG_FUNCTION SurfacePoint bspline_surface_point(TABLE_PARAM SurfaceData s, vec2 p
   return point;
 }
 
-VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+// The surface's shape in its own axes.
+VG_FUNCTION SurfacePoint shape_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
   if (IS_KIND(s, kBsplineHeightField)) {
     return bspline_height_point(TABLE s, p);
   }
@@ -244,4 +252,54 @@ VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM KINDS_PARAM SurfaceData s, ve
     return bspline_surface_point(TABLE s, p);
   }
   return conic_point(TABLE KINDS(kinds) s, p);  // plane and sphere are conics
+}
+
+// A point of the shape, found at p - decentration, as a point of the placed surface at p.
+VG_FUNCTION SurfacePoint placed(SurfaceData s, SurfacePoint point, vec2 p) {
+  vec2 slope = vec2(s.slope.x, s.slope.y);
+  point.z += dot(slope, p) + s.shift.z;
+  point.gradient += slope;
+  return point;
+}
+
+VG_FUNCTION SurfacePoint placed_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+  if (IS_PLACED(s)) {
+    return placed(s, shape_point(TABLE KINDS(kinds) s, p - vec2(s.shift.x, s.shift.y)), p);
+  }
+  return shape_point(TABLE KINDS(kinds) s, p);
+}
+
+// The second surface of a segmented one, as surface_model.cpp lays it down.
+VG_FUNCTION SurfaceData segment_surface(TABLE_PARAM SurfaceData s) {
+  int at = s.parts.x;
+  SurfaceData segment;
+  segment.shape = TABLE_AT(at);
+  segment.frame = TABLE_AT(at + 1);
+  segment.domain = TABLE_AT(at + 2);
+  segment.kind = ivec4(TABLE_AT(at + 3));
+  segment.offset = ivec4(TABLE_AT(at + 4));
+  segment.shift = TABLE_AT(at + 5);
+  segment.slope = TABLE_AT(at + 6);
+  segment.parts = ivec4(0, 0, 0, 0);
+  return segment;
+}
+
+// Even-odd rule; an edge is (x, dx/dy, y, y of its other end). Neighbouring edges share their end's y to the last bit,
+// so that a point on a level with a corner is counted once.
+VG_FUNCTION bool in_segment(TABLE_PARAM SurfaceData s, vec2 p) {
+  bool inside = false;
+  for (int i = 0; i < s.parts.z; ++i) {
+    vec4 edge = TABLE_AT(s.parts.y + i);
+    bool level = (edge.z > p.y) != (edge.w > p.y);
+    inside = inside != (level && p.x < edge.x + (p.y - edge.z) * edge.y);
+  }
+  return inside;
+}
+
+// The surface in lens axes.
+VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+  if (IS_SEGMENTED(s) && in_segment(TABLE s, p)) {
+    return placed_point(TABLE KINDS(kinds) segment_surface(TABLE s), p);
+  }
+  return placed_point(TABLE KINDS(kinds) s, p);
 }

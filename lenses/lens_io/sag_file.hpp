@@ -31,7 +31,7 @@ struct SagFile {
   SagSamples samples;
 };
 
-// Heights on a grid that is centred on the lens axis, in lens axes.
+// Heights on a grid that is centred on the lens axis, in lens axes; NaN where there is no surface.
 struct SagGrid {
   std::size_t columns = 0, rows = 0;  // along x and y, at least 2
   double width = 0.0, height = 0.0;   // m, from the first to the last
@@ -66,7 +66,7 @@ struct SagWriting {
 // fit_spline with what it throws as the file's InputError.
 [[nodiscard]] SplineFit fit_sag_file(const SagFile& sag, const std::string& file, const SplineFitConfig& config = {});
 
-// HMF tables are square: std::invalid_argument otherwise, and where a height is not finite.
+// HMF tables are square: std::invalid_argument otherwise, and where a height is infinite.
 [[nodiscard]] std::string to_sdf(const SagGrid& grid, const SagWriting& writing);
 [[nodiscard]] std::string to_hmf(const SagGrid& grid, const SagWriting& writing);
 [[nodiscard]] std::string to_xyz(const SagGrid& grid, const SagWriting& writing);

@@ -107,8 +107,8 @@ void check_grid(const SagGrid& grid) {
   if (grid.columns < 2 || grid.rows < 2 || grid.sag.size() != grid.columns * grid.rows) {
     throw std::invalid_argument("a table has at least 2 columns and 2 rows and a height for each of their crossings");
   }
-  if (!std::ranges::all_of(grid.sag, [](double z) { return std::isfinite(z); })) {
-    throw std::invalid_argument("a height that is not finite cannot be written");
+  if (std::ranges::any_of(grid.sag, [](double z) { return std::isinf(z); })) {
+    throw std::invalid_argument("an infinite height cannot be written");
   }
 }
 
@@ -120,7 +120,8 @@ std::vector<std::string> grid_rows(const SagGrid& grid, const SagWriting& writin
     std::string row;
     for (std::size_t k = 0; k < grid.columns; ++k) {
       if (k > 0) row += separator;
-      row += fixed_text(1e3 * grid.sag[(grid.columns - 1 - k) * grid.rows + j], writing.decimals);
+      const double sag = grid.sag[(grid.columns - 1 - k) * grid.rows + j];
+      row += std::isnan(sag) ? "?" : fixed_text(1e3 * sag, writing.decimals);
     }
     result.push_back(std::move(row));
   }

@@ -66,6 +66,7 @@ std::string to_xyz(const SagGrid& grid, const SagWriting& writing) {
     const std::size_t j = writing.rows == RowOrder::top_first ? grid.rows - 1 - r : r;
     for (std::size_t k = 0; k < grid.columns; ++k) {
       const std::size_t i = grid.columns - 1 - k;
+      if (std::isnan(grid.sag[i * grid.rows + j])) continue;
       text += io::number_text(io::rounded(-1e3 * grid.x(i), 12)) + " " +
               io::number_text(io::rounded(1e3 * grid.y(j), 12)) + " " +
               io::fixed_text(1e3 * grid.sag[i * grid.rows + j], writing.decimals) + "\r\n";

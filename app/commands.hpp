@@ -14,4 +14,7 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_trace_command(CLI::App& program);
 [[nodiscard]] Action add_lens_command(CLI::App& program);
 
+// The commands of `lens`, each in a file of its own.
+[[nodiscard]] Action add_lens_from_prescription_command(CLI::App& lens);
+
 }  // namespace app

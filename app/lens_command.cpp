@@ -14,6 +14,7 @@ Action add_lens_command(CLI::App& program) {
       "Example: vergence lens from-prescription --sphere -2.25 --cylinder -0.75 --axis 175 --output right.json\n"
       "vergence lens COMMAND --help shows a command's options.");
   auto actions = std::make_shared<std::map<std::string, Action>>();
+  (*actions)["from-prescription"] = add_lens_from_prescription_command(*lens);
   return [lens, actions] { return actions->at(lens->get_subcommands().front()->get_name())(); };
 }
 

@@ -237,7 +237,11 @@ void LensDraft::solve_worn() {
     return worn();
   };
   const bool with_prism = !decentres() || ordered_.prism != kCentre;
-  const auto solved = solve_power(unknowns_, measure, ordered_, with_prism);
+  auto solved = solve_power(unknowns_, measure, ordered_, with_prism);
+  if (!solved) {
+    solve_reading();
+    solved = solve_power(unknowns_, measure, ordered_, with_prism);
+  }
   if (!solved) {
     throw DesignError("as_worn",
                       "the prescription cannot be met in this position of wear; less tilt, wrap or power "
@@ -248,7 +252,9 @@ void LensDraft::solve_worn() {
 
 void LensDraft::solve(double thickness) {
   shape_.set_thickness(thickness);
-  solve_reading();
+  if (!request_.as_worn || !guessed_) {
+    solve_reading();
+  }
   if (request_.as_worn) {
     solve_worn();
   }

@@ -9,8 +9,8 @@ namespace lenses::design {
 namespace {
 
 constexpr int kRoundPoints = 180;
-constexpr double kSpacing = 1e-3;  // m, along a straight side
-constexpr int kMostParts = 64;     // of one side
+constexpr double kSpacing = 1e-3;      // m, along a straight side
+constexpr double kMostAround = 720.0;  // points on the sides of any outline, its corners not counted
 constexpr int kRings = 10;
 
 }  // namespace
@@ -24,10 +24,15 @@ std::vector<glm::dvec2> edge_points(const std::vector<glm::dvec2>& outline, doub
     }
     return points;
   }
+  double around = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    around += length(outline[(i + 1) % outline.size()] - outline[i]);
+  }
+  const double spacing = std::max(kSpacing, around / kMostAround);
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const glm::dvec2 from = outline[i];
     const glm::dvec2 side = outline[(i + 1) % outline.size()] - from;
-    const int parts = std::clamp(static_cast<int>(std::ceil(length(side) / kSpacing)), 1, kMostParts);
+    const int parts = std::max(static_cast<int>(std::ceil(length(side) / spacing)), 1);
     for (int k = 0; k < parts; ++k) {
       points.push_back(from + side * (static_cast<double>(k) / parts));
     }

@@ -110,6 +110,11 @@ void check_together(const LensRequest& r) {
 
 }  // namespace
 
+void set_contact_material(LensRequest& request) {
+  request.index = request.contact == ContactKind::soft ? 1.42 : 1.45;
+  request.abbe = 50.0;
+}
+
 void LensRequest::validate() const {
   check_prescription(prescription);
   check_making(*this);

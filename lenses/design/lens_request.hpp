@@ -68,4 +68,7 @@ struct LensRequest {
   void validate() const;
 };
 
+// Index and Abbe number usual for contact lenses of the request's kind: a hydrogel, or a gas-permeable hard material.
+void set_contact_material(LensRequest& request);
+
 }  // namespace lenses

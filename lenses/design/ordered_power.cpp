@@ -16,6 +16,11 @@ double mirrored(double angle) {
   return kPi - angle;
 }
 
+// The cosine of a right angle is 0.
+double without_noise(double cosine) {
+  return std::abs(cosine) < 1e-15 ? 0.0 : cosine;
+}
+
 // Folded into (0, period].
 double folded(double angle, double period) {
   const double rest = angle - period * std::floor(angle / period);
@@ -46,7 +51,7 @@ glm::dvec2 prism_vector(std::span<const Prism> prisms) {
   glm::dvec2 sum(0.0);
   for (const Prism& prism : prisms) {
     const double base = mirrored(prism.base);
-    sum += prism.magnitude * glm::dvec2(std::cos(base), std::sin(base));
+    sum += prism.magnitude * glm::dvec2(without_noise(std::cos(base)), without_noise(std::sin(base)));
   }
   return sum;
 }

@@ -66,27 +66,40 @@ class Problem {
 
 std::optional<LensUnknowns> solve_power(const LensUnknowns& start, const LensMeasure& measure, const PointPower& target,
                                         bool with_prism) {
+  // The derivatives hardly change along the way: they are taken anew only when a step gains less than this.
+  constexpr double kGain = 0.1;
   const Problem problem(measure, target, with_prism);
   Vector x = to_vector(start);
   auto r = problem.residual(x);
+  std::optional<Eigen::FullPivLU<Matrix>> inverse;
   for (int step = 0; r && step < kMostSteps && r->norm() > kSettled; ++step) {
-    const auto derivatives = problem.derivatives(x, *r);
-    if (!derivatives) {
-      break;
+    const bool fresh = !inverse;
+    if (fresh) {
+      const auto derivatives = problem.derivatives(x, *r);
+      if (!derivatives) {
+        break;
+      }
+      inverse.emplace(*derivatives);
     }
-    const Vector change = derivatives->fullPivLu().solve(*r);
+    const Vector change = inverse->solve(*r);
     // A step that makes it worse is halved.
     double part = 1.0;
     auto next = problem.residual(x - change);
-    for (int half = 0; half < 12 && !(next && next->norm() < r->norm()); ++half) {
+    for (int half = 0; fresh && half < 12 && !(next && next->norm() < r->norm()); ++half) {
       part *= 0.5;
       next = problem.residual(x - part * change);
     }
-    if (!next || !(next->norm() < r->norm())) {
+    const bool better = next && next->norm() < r->norm();
+    if (!better && fresh) {
       break;
     }
-    x -= part * change;
-    r = next;
+    if (!better || next->norm() > kGain * r->norm()) {
+      inverse.reset();
+    }
+    if (better) {
+      x -= part * change;
+      r = next;
+    }
   }
   return r && r->norm() <= kAccepted ? std::optional(to_unknowns(x)) : std::nullopt;
 }

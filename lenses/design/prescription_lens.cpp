@@ -164,7 +164,7 @@ class LensMaker {
     const auto close = [](double a, double b) { return std::abs(b - a) < 1e-8; };  // m
     std::uintmax_t most = 60;
     const auto found =
-        boost::math::tools::bisect([this](double t) { return shortage(t) - 1e-15; }, thin, thick, close, most);
+        boost::math::tools::toms748_solve([this](double t) { return shortage(t); }, thin, thick, close, most);
     thick = found.second;
     (void)shortage(thick);
     return thick;

@@ -86,7 +86,8 @@ Surface toric_surface(const glm::dmat2& curvature, ToricForm form, bool simplest
   const bool first_steeper = std::abs(m.first) >= std::abs(m.second);
   const bool turn_first = first_steeper == (form == ToricForm::tyre);
   const double axis = turn_first ? m.axis + 0.5 * std::numbers::pi : m.axis;
-  const double folded = axis - std::numbers::pi * std::floor(axis / std::numbers::pi);
+  // Rounding must not make 180 degrees of 0.
+  const double folded = axis - std::numbers::pi * std::floor((axis + 1e-12) / std::numbers::pi);
   return turn_first ? Torus{m.second, m.first, folded, Torus::Revolve::u}
                     : Torus{m.first, m.second, folded, Torus::Revolve::u};
 }

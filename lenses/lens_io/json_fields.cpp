@@ -59,6 +59,10 @@ void Field::fail_type(const std::string& expected) const {
   fail("is " + describe_value(*value_) + "; must be " + expected);
 }
 
+void Field::fail_below(const std::string& path, const std::string& reason) const {
+  throw tracking::InputError(source_->file, field_name(*source_, path_.empty() ? path : path_ + "." + path), reason);
+}
+
 void Field::require_object() const {
   if (!value_->is_object()) fail_type("an object");
 }
@@ -137,6 +141,11 @@ double Field::axis() const {
   const double turned = std::fmod(value_->get<double>(), 180.0);
   const double folded = turned < 0.0 ? turned + 180.0 : turned;
   return folded < 180.0 ? from_degrees(folded) : 0.0;  // -1e-20 + 180 rounds to 180
+}
+
+bool Field::truth() const {
+  if (!value_->is_boolean()) fail_type("true or false");
+  return value_->get<bool>();
 }
 
 const std::string& Field::text(const std::string& expected) const {

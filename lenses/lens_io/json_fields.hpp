@@ -51,6 +51,8 @@ class Field {
   [[noreturn]] void fail(const std::string& reason) const;
   // The reason is what is wrong with the value at hand, which is named, and what it must be.
   [[noreturn]] void fail_type(const std::string& expected) const;
+  // The same for a member, by its path from here (`fit.wrap_deg`), whether it is there or follows by rule.
+  [[noreturn]] void fail_below(const std::string& path, const std::string& reason) const;
 
   // Objects. Members whose name starts with "_" and members called comment or note are for people and pass everywhere.
   using Keys = std::initializer_list<std::string_view>;
@@ -69,6 +71,7 @@ class Field {
   [[nodiscard]] bool is_null() const;
   [[nodiscard]] double number(const Limits& limits) const;
   [[nodiscard]] double axis() const;  // degrees, any, folded into [0, 180); radians out
+  [[nodiscard]] bool truth() const;
   [[nodiscard]] const std::string& text(const std::string& expected = "a string") const;
   [[nodiscard]] std::vector<Field> elements(std::size_t fewest, std::size_t most, const std::string& of_what) const;
   [[nodiscard]] std::vector<double> numbers(const Limits& limits, std::size_t fewest, std::size_t most) const;

@@ -3,8 +3,10 @@
 // A reader's result always reads back equal (to rounding) from what the writer makes of it.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lenses/headset.hpp"
 #include "lenses/lens.hpp"
@@ -13,6 +15,8 @@ namespace lenses {
 
 [[nodiscard]] Lens read_lens(const std::string& path);
 [[nodiscard]] Spectacles read_spectacles(const std::string& path);
+// A file that is only an outline: {"polygon_mm": [[x, y], ...]}, metres out.
+[[nodiscard]] std::vector<glm::dvec2> read_outline(const std::string& path);
 [[nodiscard]] Wearer read_wearer(const std::string& path);
 [[nodiscard]] HeadsetDisplay read_headset(const std::string& path);
 

@@ -111,6 +111,18 @@ ordered_json points_object(const ReferencePoints& points) {
   return result;
 }
 
+ordered_json prescription_object(const Prescription& p) {
+  ordered_json result = {{"sphere", written(p.sphere)}, {"cylinder", written(p.cylinder)}};
+  if (p.cylinder != 0.0 || p.axis != 0.0) result["axis"] = written_degrees(p.axis);
+  if (p.addition != 0.0) result["add"] = written(p.addition);
+  if (!p.prism.empty()) {
+    result["prism"] = list(p.prism, [](const Prism& prism) -> ordered_json {
+      return {{"magnitude", written(prism.magnitude)}, {"base", written_degrees(prism.base)}};
+    });
+  }
+  return result;
+}
+
 ordered_json lens_object(const Lens& lens) {
   ordered_json result = {{"index", written(lens.index)},
                          {"abbe", written(lens.abbe)},
@@ -129,6 +141,10 @@ ordered_json lens_object(const Lens& lens) {
     result["outline"] = {{"polygon_mm", list(lens.outline, [](const glm::dvec2& p) { return mm(p); })}};
   }
   result["attached_to"] = lens.attached_to == Lens::AttachedTo::eye ? "eye" : "head";
+  if (lens.order) {
+    result["order"]["ordered"] = prescription_object(lens.order->ordered);
+    if (lens.order->compensated) result["order"]["compensated"] = prescription_object(*lens.order->compensated);
+  }
   return result;
 }
 

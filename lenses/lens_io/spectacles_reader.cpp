@@ -12,8 +12,8 @@ Spectacles parse_spectacles(std::string_view text, const std::string& file) {
   object.allow_only_in_root({"name", "right", "left", "tint"});
   Spectacles result;
   if (const auto name = object.find("name")) result.name = name->text();
-  result.lens = {io::read_lens_object(object.require("right", "a lens")),
-                 io::read_lens_object(object.require("left", "a lens"))};
+  result.lens = {io::read_lens_object(object.require("right", "a lens"), Side::right),
+                 io::read_lens_object(object.require("left", "a lens"), Side::left)};
   if (const auto tint = object.find("tint")) {
     tint->allow_only({"transmission"});
     const io::Field transmission = tint->require("transmission", "an array of 3 numbers from 0 to 1");

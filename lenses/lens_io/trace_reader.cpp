@@ -55,22 +55,19 @@ const Lens& read_lens_file(const Field& field, LensCache& lens_files) {
   }
 }
 
-std::optional<Lens> read_lens_of(const Field& line, LensCache& lens_files) {
+std::optional<Lens> read_lens_of(const Field& line, Side side, LensCache& lens_files) {
   const auto lens = line.find("lens");
   const auto lens_file = line.find("lens_file");
   const bool has_lens = lens && !lens->is_null();
   const bool has_file = lens_file && !lens_file->is_null();
   if (has_lens && has_file) lens_file->fail("is given beside lens; only one of the two is allowed");
-  if (has_lens) return io::read_lens_object(*lens);
+  if (has_lens) return io::read_lens_object(*lens, side);
   if (has_file) return read_lens_file(*lens_file, lens_files);
   return std::nullopt;
 }
 
 void read_viewing(const Field& line, TraceRequest& request) {
   using Viewing = TraceRequest::Viewing;
-  if (const auto side = line.find("side")) {
-    request.side = side->choice<Side>({{"right", Side::right}, {"left", Side::left}});
-  }
   if (const auto viewing = line.find("viewing")) {
     request.viewing =
         viewing->choice<Viewing>({{"fixed", Viewing::fixed}, {"scanning", Viewing::scanning}, {"gaze", Viewing::gaze}});
@@ -100,7 +97,10 @@ TraceRequest parse_trace_line(std::string_view line, const std::string& file, st
       {"id", "lens", "lens_file", "eye", "side", "viewing", "gaze", "direction", "object_distance_m"});
   TraceRequest request;
   request.id_json = read_id(object);
-  request.lens = read_lens_of(object, lens_files);
+  if (const auto side = object.find("side")) {
+    request.side = side->choice<Side>({{"right", Side::right}, {"left", Side::left}});
+  }
+  request.lens = read_lens_of(object, request.side, lens_files);
   if (const auto eye = object.find("eye")) request.eye = io::read_eye_object(*eye);
   read_viewing(object, request);
   request.direction = read_direction(object.require("direction", "[x, y, z], from the pupil outward"));

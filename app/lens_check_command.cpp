@@ -164,7 +164,7 @@ Action add_lens_check_command(CLI::App& lens) {
   command->add_option("--side", options->side, "Eye that single lenses are for: right or left")
       ->check(CLI::IsMember({"right", "left"}))
       ->capture_default_str();
-  command->add_option("--min-edge", options->min_edge, "Least edge thickness, mm (0.8; contact 0.03)");
+  command->add_option("--min-edge", options->min_edge, "Least edge thickness, mm (0.8; uncut 0.5, contact 0.03)");
   command->add_option("--min-centre", options->min_centre, "Least thickness elsewhere, mm (0.8; contact 0.03)");
   command->add_option("--coarse-net", options->coarse_net, "Power by which a spline may be off its smooth surface, D")
       ->capture_default_str();

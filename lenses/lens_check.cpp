@@ -15,7 +15,7 @@
 namespace lenses {
 namespace {
 
-constexpr double kLeastGlass = 0.0008, kLeastContactGlass = 0.00003;  // m
+constexpr double kLeastGlass = 0.0008, kLeastUncutEdge = 0.0005, kLeastContactGlass = 0.00003;  // m
 constexpr double kFaceHeight = 0.010;  // m above and below the pupil: brow and cheek, which stand about as the cornea
 constexpr int kRings = 40;
 
@@ -113,9 +113,11 @@ class LensChecker {
 
   void judge_glass(const Least& edge, const Least& inner) {
     const Least& least = edge.thickness < inner.thickness ? edge : inner;
-    const double by_rule = contact_ ? kLeastContactGlass : kLeastGlass;
-    const double least_edge = limits_.least_edge.value_or(by_rule);
-    const double least_centre = limits_.least_centre.value_or(by_rule);
+    const double glass = contact_ ? kLeastContactGlass : kLeastGlass;
+    // A round lens is still to be cut; its edge will not be worn.
+    const double rim = contact_ || !lens_.outline.empty() ? glass : kLeastUncutEdge;
+    const double least_edge = limits_.least_edge.value_or(rim);
+    const double least_centre = limits_.least_centre.value_or(glass);
     if (least.thickness < 0.0) {
       add(LensFault::surfaces_cross, edge_field(),
           "lets front and back surface cross: at " + place(least.at) + " the glass would be " + mm(least.thickness) +

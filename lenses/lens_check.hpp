@@ -10,7 +10,8 @@
 namespace lenses {
 
 struct LensCheckLimits {
-  // m; absent: 0.8 mm, for a contact lens 0.03 mm
+  // m; absent: 0.8 mm, for a contact lens 0.03 mm; the edge of a lens without an outline, which is still to be cut, 0.5
+  // mm
   std::optional<double> least_edge = {}, least_centre = {};
   // D: how far the power of a spline may be off the smooth surface that its net stands for.
   double coarse_net = 0.125;

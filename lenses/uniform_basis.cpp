@@ -1,12 +1,9 @@
 #include "lenses/uniform_basis.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace lenses {
 
 UniformBasis::UniformBasis(double low, double high, std::size_t count)
-    : low_(low), step_((high - low) / static_cast<double>(count - 3)), count_(count) {}
+    : low_(low), step_((high - low) / static_cast<double>(count - 3)), count_(count), axis_(knots()) {}
 
 std::vector<double> UniformBasis::knots() const {
   std::vector<double> result;
@@ -14,30 +11,19 @@ std::vector<double> UniformBasis::knots() const {
   return result;
 }
 
-UniformBasis::Place UniformBasis::place(double x) const {
-  const double along = (x - low_) / step_;
-  const double cell = std::clamp(std::floor(along), 0.0, static_cast<double>(count_ - 4));
-  return {static_cast<std::size_t>(cell), along - cell};
-}
-
 UniformBasis::Values UniformBasis::at(double x) const {
-  const auto [cell, t] = place(x);
-  const double s = 1.0 - t;
-  return {cell,
-          {s * s * s / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0, (3.0 * s * s * s - 6.0 * s * s + 4.0) / 6.0,
-           t * t * t / 6.0}};
+  const BasisAt basis = axis_.at(x);
+  return {basis.first, basis.value};
 }
 
 UniformBasis::Values UniformBasis::derivative(double x) const {
-  const auto [cell, t] = place(x);
-  const double s = 1.0 - t, scale = 0.5 / step_;
-  return {cell, {-s * s * scale, (3.0 * t * t - 4.0 * t) * scale, (4.0 * s - 3.0 * s * s) * scale, t * t * scale}};
+  const BasisAt basis = axis_.at(x);
+  return {basis.first, basis.slope};
 }
 
 UniformBasis::Values UniformBasis::second_derivative(double x) const {
-  const auto [cell, t] = place(x);
-  const double scale = 1.0 / (step_ * step_);
-  return {cell, {(1.0 - t) * scale, (3.0 * t - 2.0) * scale, (1.0 - 3.0 * t) * scale, t * scale}};
+  const BasisAt basis = axis_.at(x);
+  return {basis.first, basis.bend};
 }
 
 Eigen::MatrixXd UniformBasis::design(const std::vector<double>& places) const {

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "lenses/bspline_field.hpp"
+
 namespace lenses {
 
 class UniformBasis {
@@ -31,14 +33,9 @@ class UniformBasis {
   [[nodiscard]] Eigen::MatrixXd third_differences() const;
 
  private:
-  struct Place {
-    std::size_t cell;
-    double t;  // 0..1 within the cell
-  };
-  [[nodiscard]] Place place(double x) const;
-
   double low_, step_;
   std::size_t count_;
+  BsplineAxis axis_;
 };
 
 }  // namespace lenses

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "assets/generator/progressive_surface.hpp"
+#include "lenses/design/progressive_family.hpp"
 #include "lenses/lens_io/lens_io.hpp"
 #include "tests/support/surface_probe.hpp"
 #include "tracking/input_error.hpp"
@@ -139,7 +139,7 @@ TEST(SagFile, ReadsTheSampleAsTheSurfaceItIs) {
   EXPECT_EQ(file.face, Face::front);
   EXPECT_EQ(file.samples.points.size(), 71U * 71U);
   EXPECT_NEAR(file.samples.noise, 1e-9 / std::sqrt(12.0), 1e-15);
-  const assets::ProgressiveSurface surface;
+  const lenses::ProgressiveFamily surface;
   const auto closed_form = [&](double x, double y) { return surface.height(-x, y); };
   for (const glm::dvec3& point : file.samples.points) {
     ASSERT_NEAR(point.z, closed_form(point.x, point.y), 0.51e-9);

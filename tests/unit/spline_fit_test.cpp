@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "assets/generator/progressive_surface.hpp"
+#include "lenses/design/progressive_family.hpp"
 #include "tests/support/surface_probe.hpp"
 
 namespace {
@@ -48,7 +48,7 @@ double sphere(double x, double y) {
 }
 
 double progressive(double x, double y) {
-  static const assets::ProgressiveSurface surface;
+  static const lenses::ProgressiveFamily surface;
   return surface.height(-x, y);
 }
 

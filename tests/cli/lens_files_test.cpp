@@ -155,7 +155,7 @@ TEST_F(LensFiles, RefuseBadInput) {
   expect_refused({"from-sdf", kSurface, "--rows", "middle"}, "--rows", "top");
   expect_refused({"to-sdf", kPair, "--output", path("out.txt")}, "--output", ".sdf, .hmf, .xyz");
   expect_refused({"to-sdf", kPair, "--count", "3", "--output", path("out.sdf")}, "--count", "from 4");
-  expect_refused({"to-sdf", kPair, "--size", "100", "--output", path("out.sdf")}, kPair + ": front", "ends inside");
+  expect_refused({"to-sdf", kPair, "--size", "0", "--output", path("out.sdf")}, "--size", "from 1");
   const std::string job = folder_.write("job.oma", "SPH=-2\nCYL=1\n");
   expect_refused({"from-oma", job, "--output", out}, job + ": line 2: CYL", "axis");
   expect_refused({"from-oma", kPair, "--output", out}, kPair + ": line 1", "LABEL=value");

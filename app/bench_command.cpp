@@ -15,9 +15,9 @@
 #include "app/commands.hpp"
 #include "app/device.hpp"
 #include "app/render_setup.hpp"
+#include "app/report/output_folder.hpp"
 #include "render/chief_rays.hpp"
 #include "render/device_speed.hpp"
-#include "render/image/output_file.hpp"
 #include "render/image/png.hpp"
 #include "render/renderer.hpp"
 #include "tracking/input_error.hpp"
@@ -246,19 +246,6 @@ class Bench {
   render::PacketTracer peer_;
   BenchReport report_;
 };
-
-std::filesystem::path made_folder(const std::string& option, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0) {
-    throw InputError(option, "", "'" + folder + "' cannot be made; a folder that can be written to is expected");
-  }
-  return folder;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  render::write_file(file, std::as_bytes(std::span(text)));
-}
 
 int bench(BenchOptions options) {
   check_range("--rounds", options.rounds, 1, 1000, "");

@@ -11,6 +11,7 @@ using Action = std::function<int()>;
 
 [[nodiscard]] Action add_render_command(CLI::App& program);
 [[nodiscard]] Action add_bench_command(CLI::App& program);
+[[nodiscard]] Action add_measure_command(CLI::App& program);
 [[nodiscard]] Action add_trace_command(CLI::App& program);
 [[nodiscard]] Action add_lens_command(CLI::App& program);
 
@@ -21,5 +22,6 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_lens_from_oma_command(CLI::App& lens);
 [[nodiscard]] Action add_lens_to_oma_command(CLI::App& lens);
 [[nodiscard]] Action add_lens_check_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_progressive_command(CLI::App& lens);
 
 }  // namespace app

@@ -20,6 +20,7 @@ Action add_lens_command(CLI::App& program) {
   (*actions)["from-oma"] = add_lens_from_oma_command(*lens);
   (*actions)["to-oma"] = add_lens_to_oma_command(*lens);
   (*actions)["check"] = add_lens_check_command(*lens);
+  (*actions)["progressive"] = add_lens_progressive_command(*lens);
   return [lens, actions] { return actions->at(lens->get_subcommands().front()->get_name())(); };
 }
 

@@ -100,32 +100,34 @@ std::string option_of(const std::string& field) {
   return found == options.end() ? "--" + field : found->second;
 }
 
+// A number, finite and alone.
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  return good ? std::optional(value) : std::nullopt;
+}
+
 // "2@in", "0.5@180": prism dioptres and where the base lies.
 lenses::Prism prism_of(const std::string& text, const std::optional<lenses::Side>& side) {
-  const auto refuse = [&](const std::string& why) { throw InputError("--prism", "", "'" + text + "' " + why); };
-  const std::size_t at = text.find('@');
-  if (at == std::string::npos) {
-    refuse("is not M@B: prism dioptres, then a base from 0 to 360 degrees (TABO), or up, down, in, out");
+  const std::size_t at = std::min(text.find('@'), text.size());
+  const std::optional<double> magnitude = number_in(text.substr(0, at));
+  const std::string base = text.substr(std::min(at + 1, text.size()));
+  const std::optional<lenses::PrismBase> word = lenses::prism_base(base);
+  const std::optional<double> degrees = number_in(base);
+  if (!magnitude || !(word || (degrees && *degrees >= 0.0 && *degrees <= 360.0))) {
+    throw InputError("--prism", "",
+                     "'" + text +
+                         "' is not M@B with M prism dioptres and B a base from 0 to 360 degrees (TABO), or "
+                         "up, down, in, out, such as 2@in");
   }
-  const std::string form =
-      "M@B with M a number of prism dioptres and B a base from 0 to 360 degrees (TABO), or up, "
-      "down, in, out, such as 2@in";
-  lenses::Prism prism;
-  prism.magnitude = numbers_of("--prism", text.substr(0, at), 1, form).front();
-  const std::string base = text.substr(at + 1);
-  if (const auto known = lenses::prism_base(base)) {
-    if (!side && lenses::known_by_side(*known)) {
-      refuse("needs --side right or left, which says where the nose is");
-    }
-    prism.base = lenses::base_angle(*known, side.value_or(lenses::Side::right));
-    return prism;
+  if (!word) {
+    return {*magnitude, std::fmod(*degrees, 360.0) * kDegree};
   }
-  const double degrees = numbers_of("--prism", base, 1, form).front();
-  if (!(degrees >= 0.0 && degrees <= 360.0)) {
-    refuse("has its base out of range; from 0 to 360 degrees");
+  if (!side && lenses::known_by_side(*word)) {
+    throw InputError("--prism", "", "'" + text + "' needs --side right or left, which says where the nose is");
   }
-  prism.base = std::fmod(degrees, 360.0) * kDegree;
-  return prism;
+  return {*magnitude, lenses::base_angle(*word, side.value_or(lenses::Side::right))};
 }
 
 lenses::Prescription prescription_of(const PrescriptionOptions& o, const std::optional<lenses::Side>& side) {

@@ -24,25 +24,28 @@ BasisAt BsplineAxis::at(double x) const {
   return result;
 }
 
+HeightPoint height_point(const BasisAt& x, const BasisAt& y, std::span<const double> control, std::size_t count_y) {
+  HeightPoint point{0.0, glm::dvec2(0.0), glm::dvec3(0.0)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double* row = &control[(x.first + i) * count_y + y.first];
+    double value = 0.0, slope = 0.0, bend = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      value += y.value[j] * row[j];
+      slope += y.slope[j] * row[j];
+      bend += y.bend[j] * row[j];
+    }
+    point.z += x.value[i] * value;
+    point.gradient += glm::dvec2(x.slope[i] * value, x.value[i] * slope);
+    point.hessian += glm::dvec3(x.bend[i] * value, x.slope[i] * slope, x.value[i] * bend);
+  }
+  return point;
+}
+
 HeightFieldReader::HeightFieldReader(const BsplineHeightField& field)
     : field_(&field), x_(field.knots_x), y_(field.knots_y) {}
 
 HeightPoint HeightFieldReader::at(const glm::dvec2& p) const {
-  const BasisAt bx = x_.at(p.x), by = y_.at(p.y);
-  HeightPoint point{0.0, glm::dvec2(0.0), glm::dvec3(0.0)};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double* row = &field_->control_z[(bx.first + i) * field_->count_y() + by.first];
-    double value = 0.0, slope = 0.0, bend = 0.0;
-    for (std::size_t j = 0; j < 4; ++j) {
-      value += by.value[j] * row[j];
-      slope += by.slope[j] * row[j];
-      bend += by.bend[j] * row[j];
-    }
-    point.z += bx.value[i] * value;
-    point.gradient += glm::dvec2(bx.slope[i] * value, bx.value[i] * slope);
-    point.hessian += glm::dvec3(bx.bend[i] * value, bx.slope[i] * slope, bx.value[i] * bend);
-  }
-  return point;
+  return height_point(x_.at(p.x), y_.at(p.y), field_->control_z, field_->count_y());
 }
 
 std::vector<double> uniform_knots(std::size_t count, double half_width) {

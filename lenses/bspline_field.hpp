@@ -34,6 +34,10 @@ struct HeightPoint {
   glm::dvec3 hessian;   // z_xx, z_xy, z_yy, 1/m
 };
 
+// Of the net control[i * count_y + j], i along x.
+[[nodiscard]] HeightPoint height_point(const BasisAt& x, const BasisAt& y, std::span<const double> control,
+                                       std::size_t count_y);
+
 // Keeps a pointer to the net, which must outlive it.
 class HeightFieldReader {
  public:

@@ -1,21 +1,13 @@
 #include "app/bench/bench_report.hpp"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <set>
+
+#include "app/report/html.hpp"
+#include "app/report/text.hpp"
 
 namespace app {
 namespace {
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  std::va_list arguments;
-  va_start(arguments, pattern);
-  char text[512];
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  va_end(arguments);
-  return text;
-}
 
 const BenchRow* find(const BenchReport& report, const std::string& lens, const std::string& mode, int size,
                      const std::string& shading) {
@@ -132,14 +124,6 @@ std::string machines(const BenchReport& report) {
   return out;
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string bench_table(const BenchReport& report) {
@@ -151,10 +135,9 @@ std::string bench_table(const BenchReport& report) {
 }
 
 std::string bench_page(const BenchReport& report) {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Vergence: benchmark</title></head>\n"
-         "<body>\n<h1>Benchmark</h1>\n<img src=\"bench.svg\" alt=\"Milliseconds a frame\">\n<pre>\n" +
-         escaped(bench_table(report)) +
-         "</pre>\n<p>Every number is in <a href=\"bench.csv\">bench.csv</a>.</p>\n</body></html>\n";
+  return html_page("benchmark", "<h1>Benchmark</h1>\n<img src=\"bench.svg\" alt=\"Milliseconds a frame\">\n<pre>\n" +
+                                    html_escaped(bench_table(report)) +
+                                    "</pre>\n<p>Every number is in <a href=\"bench.csv\">bench.csv</a>.</p>\n");
 }
 
 }  // namespace app

@@ -65,6 +65,22 @@ PointPower order_of(const LensRequest& r) {
   return order;
 }
 
+// The widest net up to what is asked that the surface family allows: steep surfaces end early.
+double progressive_diameter(ProgressiveConfig config, double asked) {
+  constexpr double kNarrowest = 0.04, kWidest = 0.08, kStep = 0.0005;  // m
+  for (config.diameter = std::clamp(asked, kNarrowest, kWidest);; config.diameter -= kStep) {
+    try {
+      config.validate();
+      return config.diameter;
+    } catch (const tracking::InputError& error) {
+      if (error.field() != "diameter" || config.diameter - kStep < kNarrowest) {
+        throw DesignError("design",
+                          "progressive is not possible here: the surface's " + error.field() + " " + error.reason());
+      }
+    }
+  }
+}
+
 double mean_power(const PointPower& p) {
   return 0.5 * (p.power[0][0] + p.power[1][1]);
 }
@@ -114,7 +130,6 @@ void LensDraft::make_fixed_surfaces() {
 }
 
 void LensDraft::make_progressive() {
-  constexpr double kNarrowest = 0.04, kWidest = 0.08;  // what the surface family is made for, m
   ProgressiveConfig config;
   config.method = ProgressiveConfig::Method::closed_form;
   config.face = request_.progressive_face;
@@ -123,33 +138,37 @@ void LensDraft::make_progressive() {
   config.corridor_length = request_.corridor_length;
   config.inset = request_.inset;
   config.index = request_.index;
-  config.diameter = std::clamp(shape_.lens().diameter, kNarrowest, kWidest);
   config.fitting_cross = kFittingCross;
   config.distance_point = kDistancePoint;
   const double t = shape_.lens().centre_thickness / request_.index;
   const bool front = config.face == ProgressiveConfig::Face::front;
   config.distance_power = front ? base_curve_ : mean_power(lensmeter_) - base_curve_ / (1.0 - t * base_curve_);
-  try {
-    const BsplineHeightField surface = closed_form_progressive(config);
-    if (front) {
-      shape_.set_front(surface);
-    } else {
-      shape_.set_back(surface);
-    }
-  } catch (const tracking::InputError& error) {
-    throw DesignError("design", "progressive is not possible here: its " + error.field() + " " + error.reason());
+  config.diameter = progressive_diameter(config, shape_.lens().diameter);
+  progressive_diameter_ = config.diameter;
+  const BsplineHeightField surface = closed_form_progressive(config);
+  if (front) {
+    shape_.set_front(surface);
+  } else {
+    shape_.set_back(surface);
   }
 }
 
 double LensDraft::widest() const {
   const Lens& lens = shape_.lens();
-  return std::min(widest_diameter(lens.front, lens.front_placement), widest_diameter(lens.back, lens.back_placement));
+  return std::min({widest_diameter(lens.front, lens.front_placement), widest_diameter(lens.back, lens.back_placement),
+                   progressive_diameter_});
 }
 
 void LensDraft::set_diameter(double diameter) {
   const bool changed = diameter != shape_.lens().diameter;
   shape_.rest().diameter = diameter;
-  if (changed && request_.design == LensDesign::progressive) {
+  if (changed) {
+    renew();
+  }
+}
+
+void LensDraft::renew() {
+  if (request_.design == LensDesign::progressive) {
     make_progressive();
   }
 }

@@ -1,6 +1,8 @@
 // A lens between order and finish: at a given thickness and diameter its surfaces are solved for.
 #pragma once
 
+#include <limits>
+
 #include "lenses/design/lens_request.hpp"
 #include "lenses/design/lens_shape.hpp"
 #include "lenses/design/power_solver.hpp"
@@ -17,6 +19,8 @@ class LensDraft {
   // By the rule of the smallest radius.
   [[nodiscard]] double widest() const;
   void set_diameter(double diameter);
+  // A progressive surface made anew for the thickness that has been found, so that the base curve comes out as meant.
+  void renew();
   void set_conic_constant(double conic_constant);
 
   // Solves the surfaces for this thickness. Throws DesignError where there is no such lens.
@@ -49,6 +53,7 @@ class LensDraft {
   double base_curve_;     // D
   double conic_constant_ = 0.0;
   double segment_curvature_ = 0.0;
+  double progressive_diameter_ = std::numeric_limits<double>::infinity();  // of the net, m
   LensShape shape_;
   LensUnknowns unknowns_;
   bool guessed_ = false;

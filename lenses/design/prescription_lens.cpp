@@ -49,6 +49,9 @@ double outline_diameter(const std::vector<glm::dvec2>& outline) {
   return 2.0 * farthest * (1.0 + 1e-9);
 }
 
+// A surface that does not reach the edge.
+struct SurfaceEnds {};
+
 class LensMaker {
  public:
   explicit LensMaker(const LensRequest& request) : request_(request), rule_(size_rule(request)), draft_(request) {}
@@ -65,31 +68,49 @@ class LensMaker {
  private:
   [[nodiscard]] bool by_rule() const { return !request_.diameter && request_.outline.empty(); }
 
+  // A thicker lens of plus power has a steeper back, a smaller one is thinner: the diameter by rule only ever shrinks.
   void settle_size() {
-    constexpr int kMostPasses = 30;
-    constexpr double kTidy = 1e-4;  // m, to which a diameter by rule is rounded down
+    constexpr int kMostPasses = 60;
     double diameter = asked_diameter();
     draft_.set_diameter(diameter);
     draft_.solve(request_.centre_thickness.value_or(rule_.minimum_centre));
-    // A thicker lens of plus power has a steeper back, a smaller one is thinner: the diameter only ever shrinks.
+    bool renewed = request_.design != LensDesign::progressive;
     for (int pass = 0; pass < kMostPasses; ++pass) {
       if (by_rule()) {
-        const double widest = kTidy * std::floor(draft_.widest() / kTidy * (1.0 + 1e-12));
-        if (!(widest >= rule_.smallest_diameter)) {
-          throw DesignError("prescription", "asks for surfaces so steep that the lens would be " + in_mm(widest) +
-                                                " wide; at least " + in_mm(rule_.smallest_diameter) +
-                                                " is needed: less power or prism, another base curve or a higher "
-                                                "index are possible");
-        }
-        diameter = std::min(diameter, widest);
+        diameter = narrower(diameter);
         draft_.set_diameter(diameter);
       }
-      settle_thickness();
-      if (!by_rule() || draft_.widest() >= diameter) {
+      if (!settle_thickness() || (by_rule() && draft_.widest() < diameter)) {
+        continue;
+      }
+      if (renewed) {
         return;
       }
+      draft_.renew();
+      renewed = true;
     }
+    refuse_reach();
   }
+
+  // What the surfaces allow, to a tenth of a millimetre.
+  [[nodiscard]] double narrower(double diameter) const {
+    constexpr double kTidy = 1e-4;  // m
+    if (draft_.widest() >= diameter && surfaces_reach()) {
+      return diameter;
+    }
+    const double allowed = std::min(draft_.widest(), surfaces_reach() ? diameter : 0.95 * diameter);
+    const double result = kTidy * std::floor(allowed / kTidy * (1.0 + 1e-12));
+    if (!(result >= rule_.smallest_diameter)) {
+      throw DesignError("prescription", "asks for surfaces so steep that the lens would be " +
+                                            in_mm(std::max(0.0, result)) + " wide; at least " +
+                                            in_mm(rule_.smallest_diameter) +
+                                            " is needed: less power or prism, another base curve or a higher index "
+                                            "are possible");
+    }
+    return result;
+  }
+
+  [[nodiscard]] bool surfaces_reach() const { return design::thickness_range(draft_.shape(), edge()).has_value(); }
 
   [[nodiscard]] double asked_diameter() const {
     const double needed = outline_diameter(request_.outline);
@@ -109,7 +130,7 @@ class LensMaker {
     draft_.solve(thickness);
     const auto range = design::thickness_range(draft_.shape(), edge());
     if (!range) {
-      refuse_reach();
+      throw SurfaceEnds{};
     }
     return std::max(rule_.minimum_edge - range->thinnest_edge,
                     std::min(rule_.minimum_edge, rule_.minimum_centre) - range->thinnest);
@@ -124,20 +145,33 @@ class LensMaker {
                           ", more with flatter surfaces or a higher index");
   }
 
-  void settle_thickness() {
-    if (request_.centre_thickness) {
-      const double missing = shortage(*request_.centre_thickness);
-      if (missing > 0.0 || *request_.centre_thickness < rule_.minimum_centre * (1.0 - 1e-9)) {
-        const double possible = least_thickness();
-        throw DesignError("centre_thickness_mm",
-                          "is " + in_mm(*request_.centre_thickness) + ", which leaves " +
-                              in_mm(rule_.minimum_edge - missing) + " at the thinnest place of the edge; at least " +
-                              in_mm(1e-6 * std::ceil(1e6 * possible)) + " is needed for " + in_mm(rule_.minimum_edge) +
-                              " there and " + in_mm(rule_.minimum_centre) + " in the centre");
+  // False where a lens whose diameter follows by rule must first become smaller.
+  [[nodiscard]] bool settle_thickness() {
+    try {
+      if (request_.centre_thickness) {
+        check_given_thickness(*request_.centre_thickness);
+      } else {
+        (void)least_thickness();
       }
+      return true;
+    } catch (const SurfaceEnds&) {
+      if (!by_rule()) {
+        refuse_reach();
+      }
+      return false;
+    }
+  }
+
+  void check_given_thickness(double given) {
+    const double missing = shortage(given);
+    if (missing <= 0.0 && given >= rule_.minimum_centre * (1.0 - 1e-9)) {
       return;
     }
-    (void)least_thickness();
+    const double needed = 1e-6 * std::ceil(1e6 * least_thickness());
+    throw DesignError("centre_thickness_mm",
+                      "is " + in_mm(given) + ", which leaves " + in_mm(rule_.minimum_edge - missing) +
+                          " at the thinnest place of the edge; at least " + in_mm(needed) + " is needed for " +
+                          in_mm(rule_.minimum_edge) + " there and " + in_mm(rule_.minimum_centre) + " in the centre");
   }
 
   // The least centre thickness that leaves enough glass everywhere; the draft is solved for it.

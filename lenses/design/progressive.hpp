@@ -16,6 +16,7 @@ namespace lenses {
 struct ProgressiveConfig {
   enum class Method { closed_form, variational };
   enum class Face { front, eye_side };
+  static constexpr double kNetMargin = 0.003;  // m
   Method method = Method::variational;
   Face face = Face::front;  // which side of the lens carries the surface
   Side side = Side::right;
@@ -32,10 +33,12 @@ struct ProgressiveConfig {
 
   // Throws tracking::InputError whose field is the member's name.
   void validate() const;
+  // The largest diameter that surfaces of this power allow, m.
+  [[nodiscard]] double widest() const;
   [[nodiscard]] double power_per_curvature() const { return face == Face::front ? index - 1.0 : 1.0 - index; }
   [[nodiscard]] double nose_x() const { return side == Side::right ? -1.0 : 1.0; }
   [[nodiscard]] glm::dvec2 near_point() const { return {nose_x() * inset, fitting_cross - corridor_length}; }
-  [[nodiscard]] double half_width() const { return 0.5 * diameter + 0.003; }  // of the net's square, m
+  [[nodiscard]] double half_width() const { return 0.5 * diameter + kNetMargin; }  // of the net's square, m
 };
 
 // Width of the zone about the umbilic line where the unwanted cylinder stays below a limit, m.

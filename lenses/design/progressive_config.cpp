@@ -21,7 +21,8 @@ std::string text(double value) {
 }
 
 void require(const char* field, double value, double lo, double hi, double unit, const std::string& unit_name) {
-  if (value >= lo && value <= hi) return;
+  const double rounding = 1e-12 * hi;  // 18 mm read as 18 * 1e-3 m
+  if (value >= lo - rounding && value <= hi + rounding) return;
   throw tracking::InputError("progressive", field,
                              "is " + text(value / unit) + unit_name + "; " + text(lo / unit) + " to " +
                                  text(hi / unit) + unit_name + " is allowed");
@@ -31,7 +32,8 @@ void require(const char* field, double value, double lo, double hi, double unit,
 
 void ProgressiveConfig::validate() const {
   constexpr double kMm = 1e-3;
-  require("addition", addition, 0.75, 3.5, 1.0, " D");
+  // A little beyond what may be ordered: a lensmeter reads not quite the surface's own addition.
+  require("addition", addition, 0.6, 3.8, 1.0, " D");
   require("corridor_length", corridor_length, 0.008, 0.018, kMm, " mm");
   require("inset", inset, 0.0, 0.005, kMm, " mm");
   require("hardness", hardness, 0.0, 1.0, 1.0, "");
@@ -41,14 +43,16 @@ void ProgressiveConfig::validate() const {
   require("distance_point", distance_point, fitting_cross, 0.012, kMm, " mm");
   require("distance_power", distance_power, -25.0, 25.0, 1.0, " D");
   require("grid", static_cast<double>(grid), 24.0, 100.0, 1.0, "");
-  const double steepest = std::max(std::abs(distance_power), std::abs(distance_power + addition)) / (index - 1.0);
-  const double widest = 2.0 * (kSteepest / steepest - (half_width() - 0.5 * diameter));
-  if (diameter > widest) {
+  if (diameter > widest()) {
     throw tracking::InputError("progressive", "diameter",
-                               "is " + text(diameter / kMm) + " mm; at most " +
-                                   text(std::floor(std::max(0.0, widest) / kMm)) +
+                               "is " + text(diameter / kMm) + " mm; at most " + text(std::floor(widest() / kMm)) +
                                    " mm fits on a surface of this power, a flatter one allows more");
   }
+}
+
+double ProgressiveConfig::widest() const {
+  const double steepest = std::max(std::abs(distance_power), std::abs(distance_power + addition)) / (index - 1.0);
+  return std::max(0.0, 2.0 * (kSteepest / steepest - kNetMargin));
 }
 
 ProgressiveFamilyConfig family_config(const ProgressiveConfig& config) {

@@ -1,5 +1,6 @@
 #include "lenses/design/progressive_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lenses/bspline_field.hpp"

@@ -152,17 +152,19 @@ SegmentedSurface bifocal_front(const LensRequest& request, double base_curvature
   SegmentedSurface surface{Sphere{base_curvature}, Sphere{segment_curvature}, {}, {}};
   // Two spheres with a common tangent, `at`; their distance grows with the circle about it.
   surface.segment_placement.decentration = at - on_segment - centre;
-  const double rim = layout.radius;
-  const glm::dvec2 meets = at + glm::dvec2(0.0, -rim);
-  surface.segment_placement.height =
-      sphere_sag(base_curvature, meets - centre) -
-      sphere_sag(segment_curvature, meets - centre - surface.segment_placement.decentration);
-  if (rim > 0.0) {
-    surface.boundary = circle_below(at, rim, layout.top);
+  if (layout.radius > 0.0) {
+    surface.boundary = circle_below(at, layout.radius, layout.top);
   } else {
     constexpr double kBeyond = 0.1;  // m, past any lens
     surface.boundary = {{kBeyond, layout.top}, {-kBeyond, layout.top}, {-kBeyond, -kBeyond}, {kBeyond, -kBeyond}};
   }
+  // The spheres meet along a circle about their common normal; seen along the lens axis it is nearly the boundary's.
+  const glm::dvec2 down(0.0, layout.radius);
+  const auto gap = [&](const glm::dvec2& p) {
+    return sphere_sag(base_curvature, p - centre) -
+           sphere_sag(segment_curvature, p - centre - surface.segment_placement.decentration);
+  };
+  surface.segment_placement.height = 0.5 * (gap(at + down) + gap(at - down));
   return surface;
 }
 

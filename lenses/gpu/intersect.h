@@ -10,7 +10,7 @@
 
 struct SurfaceHit {
   bool found;
-  bool ledge;  // not found, as the ray ends in the wall between a segment and its base, near t
+  bool ledge;  // not found, as the ray ends in the wall between a segment and its base, before t
   real t;
   SurfacePoint point;
 };
@@ -182,25 +182,25 @@ VG_FUNCTION SurfaceHit placed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o,
   return shape_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
 }
 
-// Base and segment count each on its own side of the boundary; the nearer of what counts is hit. A ray for which
-// neither counts has ended in the ledge between them, unless the two surfaces meet there: then rounding alone has put
-// each hit on the other's side, and the base stands for both. (A ray that goes in and out again through the walls of a
-// ledge before it meets a surface is not stopped.)
+// Base and segment count each on its own side of the boundary; the nearer of what counts is hit. A ray that meets both,
+// each on the other's side, has passed the boundary below one of them: it has ended in the ledge's wall. Where the two
+// surfaces meet, rounding alone does that, and the base stands for both. Walls that a ray goes through on its way to or
+// from a surface that it rightly meets are not seen.
 VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
   SurfaceHit hit = placed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
   if (IS_SEGMENTED(s)) {
     SurfaceHit inner = placed_hit(TABLE KINDS(kinds) segment_surface(TABLE s), o, d, semi_diameter);
     bool hit_counts = hit.found && !in_segment(TABLE s, vec2(o.x + hit.t * d.x, o.y + hit.t * d.y));
     bool inner_counts = inner.found && in_segment(TABLE s, vec2(o.x + inner.t * d.x, o.y + inner.t * d.y));
-    bool meet = hit.found && inner.found &&
-                abs(hit.t - inner.t) <= real(16) * kEpsilon * (abs(o.z) + semi_diameter);
     if (inner_counts && !(hit_counts && hit.t <= inner.t)) {
       return inner;
     }
-    if (!hit_counts && !meet) {
-      hit.t = hit.found ? hit.t : inner.t;
-      hit.ledge = hit.found || inner.found;
-      hit.found = false;
+    if (!hit_counts) {
+      bool both = hit.found && inner.found;
+      bool meet = both && abs(hit.t - inner.t) <= real(16) * kEpsilon * (abs(o.z) + semi_diameter);
+      hit.t = both ? max(hit.t, inner.t) : real(0);
+      hit.ledge = both && !meet;
+      hit.found = meet;
     }
   }
   return hit;

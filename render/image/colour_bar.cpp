@@ -10,9 +10,6 @@
 namespace render {
 namespace {
 
-constexpr Rgb kText{255, 255, 255};
-constexpr Rgb kGround{16, 16, 16};
-
 int text_scale(const Image8& image) {
   return std::max(1, image.height / 480);
 }
@@ -62,13 +59,13 @@ void draw_colours(Image8& image, const Rect& bar, int which_map) {
   }
 }
 
-void draw_ticks(Image8& image, const Rect& bar, double lo, double hi, int scale) {
+void draw_ticks(Image8& image, const Rect& bar, double lo, double hi, int scale, Rgb colour) {
   const int at_most = std::max(2, bar.height / (2 * kLineHeight * scale));
   for (const Tick& tick : round_ticks(lo, hi, at_most)) {
     const int y = bar.y + static_cast<int>(std::lround((hi - tick.value) / (hi - lo) * (bar.height - 1)));
     const int right = bar.x + bar.width;
-    draw_hline(image, right, y - scale / 2, 3 * scale, scale, kText);
-    draw_text(image, right + 8 * scale, y - kTextHeight * scale / 2, scale, tick.label, kText);
+    draw_hline(image, right, y - scale / 2, 3 * scale, scale, colour);
+    draw_text(image, right + 8 * scale, y - kTextHeight * scale / 2, scale, tick.label, colour);
   }
 }
 
@@ -93,16 +90,16 @@ Rect colour_bar_place(const Image8& image) {
 }
 
 void draw_colour_bar(Image8& image, const Rect& where, int which_map, double lo, double hi, const std::string& unit,
-                     const std::string& title) {
+                     const std::string& title, const ColourBarStyle& style) {
   check_image(image);
   if (image.height < kLowestWithColourBar) return;
-  const int scale = text_scale(image), margin = 5 * scale;
-  shade_rect(image, where, kGround, 0.75);
+  const int scale = style.scale > 0 ? style.scale : text_scale(image), margin = 5 * scale;
+  shade_rect(image, where, style.ground, style.opacity);
 
   const auto lines = wrapped(unit.empty() ? title : title + " (" + unit + ")", where.width - 2 * margin, scale);
   int y = where.y + margin;
   for (const std::string& line : lines) {
-    draw_text(image, where.x + margin, y, scale, line, kText);
+    draw_text(image, where.x + margin, y, scale, line, style.text);
     y += kLineHeight * scale;
   }
   // Half a line free at both ends, where the outermost numbers reach beyond the bar.
@@ -110,7 +107,7 @@ void draw_colour_bar(Image8& image, const Rect& where, int which_map, double lo,
   const Rect bar{where.x + margin, y, 16 * scale, where.y + where.height - margin - kTextHeight * scale / 2 - y};
   if (bar.height <= 0) return;
   draw_colours(image, bar, which_map);
-  draw_ticks(image, bar, lo, hi, scale);
+  draw_ticks(image, bar, lo, hi, scale, style.text);
 }
 
 }  // namespace render

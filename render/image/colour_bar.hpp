@@ -23,9 +23,15 @@ struct Tick {
 // A place at the right edge, as wide as the labels need.
 [[nodiscard]] Rect colour_bar_place(const Image8& image);
 
-// which_map as in gpu/colour_map.h; lo at the foot, hi at the top. White text on a dark ground over `where`, sized with
-// the picture; draws nothing in pictures lower than kLowestWithColourBar.
+struct ColourBarStyle {
+  Rgb text{255, 255, 255}, ground{16, 16, 16};
+  double opacity = 0.75;  // of the ground
+  int scale = 0;          // of the text; 0: by the picture's height
+};
+
+// which_map as in gpu/colour_map.h; lo at the foot, hi at the top. Fills `where`; draws nothing in pictures lower than
+// kLowestWithColourBar.
 void draw_colour_bar(Image8& image, const Rect& where, int which_map, double lo, double hi, const std::string& unit,
-                     const std::string& title);
+                     const std::string& title, const ColourBarStyle& style = {});
 
 }  // namespace render

@@ -57,6 +57,29 @@ void draw_vline(Image8& image, int x, int y, int length, int thickness, Rgb colo
   fill_rect(image, {x, y, thickness, length}, colour);
 }
 
+void draw_line(Image8& image, Point from, Point to, double thickness, Rgb colour) {
+  const double dx = to.x - from.x, dy = to.y - from.y, length2 = dx * dx + dy * dy;
+  if (!std::isfinite(length2)) return;
+  const double reach = 0.5 * thickness + 1.0;
+  // Clamped before they become integers: an end may lie anywhere.
+  const auto pixel = [](double at, int size) {
+    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
+  };
+  const int x0 = pixel(std::min(from.x, to.x) - reach, image.width);
+  const int x1 = pixel(std::max(from.x, to.x) + reach + 1.0, image.width);
+  const int y0 = pixel(std::min(from.y, to.y) - reach, image.height);
+  const int y1 = pixel(std::max(from.y, to.y) + reach + 1.0, image.height);
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const double px = x + 0.5 - from.x, py = y + 0.5 - from.y;
+      const double along = length2 > 0.0 ? std::clamp((px * dx + py * dy) / length2, 0.0, 1.0) : 0.0;
+      const double away = std::hypot(px - along * dx, py - along * dy);
+      const double cover = std::clamp(0.5 * thickness + 0.5 - away, 0.0, 1.0);
+      if (cover > 0.0) shade_rect(image, {x, y, 1, 1}, colour, cover);
+    }
+  }
+}
+
 void draw_text(Image8& image, int x, int y, int scale, const std::string& text, Rgb colour) {
   std::string line = printable(text);
   // No character has more than 16 strokes.

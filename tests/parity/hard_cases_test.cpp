@@ -9,7 +9,9 @@
 //   misses and rims hard_miss_*, sem_miss_rim_*              umbilics, 45 degrees hard_axis_umbilic_*, hard_cos2theta_*
 //   foci hard_focus_*                                        object at the focus hard_object_at_focus
 //   n 1.9 hard_n19_oblique40                                 aplanatic points hard_aplanatic_*
-// Rays that run along an axis, and rays that start on a triangle, belong to the scene's traversal: bvh_test.
+// Sag files rounded to 1e-4 mm are in sampled_spline_test, more of contact lenses in contact_lens_test. Rays that run
+// along an axis, and rays that start on a triangle, belong to the scene's traversal: bvh_test. Poses that are NaN or
+// not normalised never reach a lens: stereo_view_test, bad_input_test.
 #include "tests/support/de_boor.hpp"
 #include "tests/support/hard_case.hpp"
 

@@ -141,6 +141,20 @@ TEST_P(HardCase, StrongLensesHighIndexAndWideGaze) {
   }
 }
 
+// Along the gaze the ray runs through the centre of rotation: V is Coddington's there, taken back to the turned pupil.
+TEST_P(HardCase, FortyDegreesOfGaze) {
+  for (const auto& [front, back] : {std::pair(9.0, 3.0), std::pair(4.0, 16.0)}) {
+    auto request = toward(through(lenses::Sphere{front}, lenses::Sphere{back}, 3.0), 0.0, 40.0);
+    request.viewing = TraceRequest::Viewing::gaze;
+    request.gaze = request.direction;
+    const auto at_centre =
+        support::coddington_vergence({1.5, 0.003, front, back, 0.013 + 0.0135}, 40.0 * kRadians, 0.0);
+    const double back_to_pupil = 0.0135 - 0.00305;
+    const auto at_pupil = [&](double v) { return v / (1.0 + back_to_pupil * v); };
+    expect_vergence(trace(request), {at_pupil(at_centre.sagittal), 0.0, at_pupil(at_centre.tangential)});
+  }
+}
+
 TEST_P(HardCase, AxisWrapsAt180Degrees) {
   for (const double axis : {0.0, 1e-13, std::numbers::pi - 1e-13, std::numbers::pi, -1e-13}) {
     const auto request = through(Torus{9.0, 5.0, axis}, lenses::Sphere{4.0});

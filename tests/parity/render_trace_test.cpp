@@ -95,6 +95,8 @@ std::vector<LensCase> lens_cases() {
       same_for_both("conic and plane", conic_lens()),
       same_for_both("contact lens", contact_lens()),
       same_for_both("parametric B-spline", support::ordinary_lens(random, 5, 1)),
+      {"bifocal", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bifocal.json")},
+      {"prism", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/prism.json")},
       {"progressive with sphere",
        lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_sphere.json")},
       {"progressive with torus", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_torus.json")}};

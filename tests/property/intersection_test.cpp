@@ -30,17 +30,25 @@ struct Scene {
     return point.inside ? p.z - point.z : std::nan("");
   }
 
-  // The first step on which a walk of length `end` passes from above the surface to below.
-  [[nodiscard]] bool crosses_before(const glm::dvec3& direction, double end) const {
+  enum class Met { nothing, surface, wall };
+
+  // What a walk of length `end` first passes from outside to inside: the surface, or a ledge's wall between two steps.
+  // (Into a segmented surface's solid it may also have come through the rim; then it meets nothing.)
+  [[nodiscard]] Met walk(const glm::dvec3& direction, double end) const {
+    const bool segmented = lens().back.parts.z > 0;
     double last = std::nan("");
+    bool last_part = false;
     for (int i = 0; i <= kSteps; ++i) {
-      const double f = above(start + end * i / kSteps * direction);
-      if (last > 0.0 && f <= 0.0) {
-        return true;
+      const glm::dvec3 p = start + end * i / kSteps * direction;
+      const double f = above(p);
+      const bool part = segmented && f64::in_segment(f64::Table{model.table}, lens().back, glm::dvec2(p));
+      if (f <= 0.0 && (last > 0.0 || segmented)) {
+        return !(last > 0.0) ? Met::nothing : part == last_part ? Met::surface : Met::wall;
       }
       last = f;
+      last_part = part;
     }
-    return false;
+    return Met::nothing;
   }
 };
 
@@ -50,6 +58,7 @@ TEST_P(IntersectionProperty, IsTheFirstCrossingAlongTheRay) {
   Random random(kSeed + GetParam());
   int hits = 0;
   int misses = 0;
+  int ledges = 0;
   for (int i = 0; i < 60; ++i) {
     lenses::Lens lens = support::ordinary_lens(random, 1, GetParam());
     if (i % 2 == 1) {  // small and far to the side
@@ -66,19 +75,28 @@ TEST_P(IntersectionProperty, IsTheFirstCrossingAlongTheRay) {
       const glm::dvec3 direction = k % 2 == 0
                                        ? glm::normalize(aim - scene.start)
                                        : f64::to_lens_direction(scene.lens(), random.direction_ahead(75.0 * kRadians));
+      const double far = glm::length(scene.start) + 2.0 * lens.diameter;
       const auto path = f64::trace_lens(f64::Table{scene.model.table}, scene.lens(), scene.start, direction);
       if (path.status == f64::kStatusMissBack) {
         ++misses;
-        EXPECT_FALSE(scene.crosses_before(direction, glm::length(scene.start) + 2.0 * lens.diameter));
+        EXPECT_NE(scene.walk(direction, far), Scene::Met::surface);
+        continue;
+      }
+      if (f64::intersect_surface(f64::Table{scene.model.table}, scene.lens().back, scene.start, direction, scene.radius)
+              .ledge) {
+        EXPECT_EQ(path.status, f64::kStatusMissFront);
+        EXPECT_EQ(scene.walk(direction, far), Scene::Met::wall);
+        ++ledges;
         continue;
       }
       ++hits;
       EXPECT_NEAR(scene.above(path.back_hit), 0.0, 1e-15);
-      EXPECT_FALSE(scene.crosses_before(direction, path.t_back * (1.0 - 1e-7)));
+      EXPECT_NE(scene.walk(direction, path.t_back * (1.0 - 1e-7)), Scene::Met::surface);
     }
   }
   EXPECT_GE(hits, 300);
   EXPECT_GE(misses, 200);
+  EXPECT_EQ(ledges > 0, GetParam() == support::kSegmentedKind);
 }
 
 INSTANTIATE_TEST_SUITE_P(Back, IntersectionProperty, testing::Range<std::size_t>(0, support::kSurfaceKinds),

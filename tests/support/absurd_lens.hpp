@@ -53,7 +53,7 @@ inline lenses::Conic absurd_conic(Random& random, double semi_diameter) {
 }
 
 // Waves and noise of a nanometre to a decimetre over anything from a millimetre to the whole lens.
-inline lenses::Surface absurd_spline(Random& random, bool parametric) {
+inline lenses::BasicSurface absurd_spline(Random& random, bool parametric) {
   const double half = random.log_uniform(1e-3, 0.1);
   const double height = random.log_uniform(1e-9, 0.1);
   const double k = random.log_uniform(1.0, 1e4);
@@ -79,8 +79,8 @@ inline lenses::Surface absurd_spline(Random& random, bool parametric) {
   return patch;
 }
 
-inline lenses::Surface absurd_surface(Random& random, double semi_diameter) {
-  switch (random.pick(kSurfaceKinds)) {
+inline lenses::BasicSurface absurd_shape(Random& random, double semi_diameter) {
+  switch (random.pick(kShapes)) {
     case 0:
       return lenses::Plane{};
     case 1:
@@ -96,6 +96,48 @@ inline lenses::Surface absurd_surface(Random& random, double semi_diameter) {
   }
 }
 
+// As far, as steep and as high as a file may say, or hardly at all.
+inline lenses::Placement absurd_placement(Random& random) {
+  lenses::Placement placement;
+  if (random.chance(0.5)) {
+    const double far = random.log_uniform(1e-12, 0.1);
+    placement.decentration = {random.uniform(-far, far), random.uniform(-far, far)};
+  }
+  if (random.chance(0.5)) {
+    const double steep = random.log_uniform(1e-12, 2.0);
+    placement.slope = {random.uniform(-steep, steep), random.uniform(-steep, steep)};
+  }
+  if (random.chance(0.5)) {
+    placement.height = random.sign() * random.log_uniform(1e-12, 0.1);
+  }
+  return placement;
+}
+
+// Any closed polyline: crossing itself, level edges, corners that coincide.
+inline lenses::SegmentedSurface absurd_segmented(Random& random, double semi_diameter) {
+  lenses::SegmentedSurface surface;
+  surface.base = absurd_shape(random, semi_diameter);
+  surface.segment = random.chance(0.2) ? surface.base : absurd_shape(random, semi_diameter);
+  surface.segment_placement = absurd_placement(random);
+  const double reach = semi_diameter * random.log_uniform(1e-3, 3.0);
+  const std::size_t corners = 3 + random.pick(20);
+  for (std::size_t i = 0; i < corners; ++i) {
+    glm::dvec2 corner(random.uniform(-reach, reach), random.uniform(-reach, reach));
+    if (i > 0 && random.chance(0.3)) {
+      corner.y = surface.boundary.back().y * (1.0 + random.sign() * random.log_uniform(1e-18, 1e-3));
+    }
+    surface.boundary.push_back(i > 0 && random.chance(0.1) ? surface.boundary.back() : corner);
+  }
+  return surface;
+}
+
+inline lenses::Surface absurd_surface(Random& random, double semi_diameter) {
+  if (random.chance(0.2)) {
+    return absurd_segmented(random, semi_diameter);
+  }
+  return std::visit([](auto&& s) { return lenses::Surface(s); }, absurd_shape(random, semi_diameter));
+}
+
 inline lenses::Lens absurd_lens(Random& random) {
   lenses::Lens lens;
   lens.index = random.chance(0.1) ? 1.0 : random.uniform(1.0, 4.0);
@@ -103,6 +145,10 @@ inline lenses::Lens absurd_lens(Random& random) {
   lens.diameter = random.log_uniform(1e-4, 0.2);
   lens.front = absurd_surface(random, 0.5 * lens.diameter);
   lens.back = absurd_surface(random, 0.5 * lens.diameter);
+  if (random.chance(0.3)) {
+    lens.front_placement = absurd_placement(random);
+    lens.back_placement = absurd_placement(random);
+  }
   lens.fit.vertex_distance = random.chance(0.2) ? 0.0 : random.uniform(0.0, 0.1);
   if (random.chance(0.5)) {
     lens.fit.decentration = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};

@@ -5,14 +5,27 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "lenses/lens.hpp"
 
 namespace support {
 
-// z -> -z.
-inline lenses::Surface flipped(const lenses::Surface& surface) {
-  lenses::Surface out = surface;
+inline lenses::Placement flipped(const lenses::Placement& p) {
+  return {p.decentration, -p.slope, -p.height};
+}
+inline lenses::Placement mirrored(const lenses::Placement& p) {
+  const glm::dvec2 flip(-1.0, 1.0);
+  return {flip * p.decentration, flip * p.slope, p.height};
+}
+inline lenses::Placement scaled(const lenses::Placement& p, double s) {
+  return {s * p.decentration, p.slope, s * p.height};
+}
+
+// z -> -z. Surface is lenses::Surface or lenses::BasicSurface, here and below.
+template <class Surface>
+Surface flipped(const Surface& surface) {
+  Surface out = surface;
   if (auto* sphere = std::get_if<lenses::Sphere>(&out)) {
     sphere->curvature = -sphere->curvature;
   } else if (auto* conic = std::get_if<lenses::Conic>(&out)) {
@@ -25,6 +38,11 @@ inline lenses::Surface flipped(const lenses::Surface& surface) {
     std::ranges::transform(heights->control_z, heights->control_z.begin(), std::negate<>());
   } else if (auto* patch = std::get_if<lenses::BsplineSurface>(&out)) {
     std::ranges::for_each(patch->control, [](glm::dvec3& p) { p.z = -p.z; });
+  }
+  if constexpr (std::is_same_v<Surface, lenses::Surface>) {
+    if (auto* parts = std::get_if<lenses::SegmentedSurface>(&out)) {
+      *parts = {flipped(parts->base), flipped(parts->segment), flipped(parts->segment_placement), parts->boundary};
+    }
   }
   return out;
 }
@@ -47,8 +65,9 @@ std::vector<T> reversed_rows(const std::vector<T>& net, std::size_t length) {
 }
 
 // x -> -x.
-inline lenses::Surface mirrored(const lenses::Surface& surface) {
-  lenses::Surface out = surface;
+template <class Surface>
+Surface mirrored(const Surface& surface) {
+  Surface out = surface;
   if (auto* torus = std::get_if<lenses::Torus>(&out)) {
     torus->axis = std::numbers::pi - torus->axis;
   } else if (auto* heights = std::get_if<lenses::BsplineHeightField>(&out)) {
@@ -59,6 +78,12 @@ inline lenses::Surface mirrored(const lenses::Surface& surface) {
     patch->knots_u = reversed_knots(patch->knots_u);
     std::ranges::for_each(patch->control, [](glm::dvec3& p) { p.x = -p.x; });
   }
+  if constexpr (std::is_same_v<Surface, lenses::Surface>) {
+    if (auto* parts = std::get_if<lenses::SegmentedSurface>(&out)) {
+      *parts = {mirrored(parts->base), mirrored(parts->segment), mirrored(parts->segment_placement), parts->boundary};
+      std::ranges::for_each(parts->boundary, [](glm::dvec2& p) { p.x = -p.x; });
+    }
+  }
   return out;
 }
 
@@ -67,12 +92,15 @@ inline lenses::Lens mirrored(const lenses::Lens& lens) {
   lenses::Lens out = lens;
   out.front = mirrored(lens.front);
   out.back = mirrored(lens.back);
+  out.front_placement = mirrored(lens.front_placement);
+  out.back_placement = mirrored(lens.back_placement);
   out.fit.decentration.x = -lens.fit.decentration.x;
   return out;
 }
 
-inline lenses::Surface scaled(const lenses::Surface& surface, double s) {
-  lenses::Surface out = surface;
+template <class Surface>
+Surface scaled(const Surface& surface, double s) {
+  Surface out = surface;
   if (auto* sphere = std::get_if<lenses::Sphere>(&out)) {
     sphere->curvature /= s;
   } else if (auto* conic = std::get_if<lenses::Conic>(&out)) {
@@ -92,6 +120,13 @@ inline lenses::Surface scaled(const lenses::Surface& surface, double s) {
   } else if (auto* patch = std::get_if<lenses::BsplineSurface>(&out)) {
     std::ranges::for_each(patch->control, [s](glm::dvec3& p) { p *= s; });
   }
+  if constexpr (std::is_same_v<Surface, lenses::Surface>) {
+    if (auto* parts = std::get_if<lenses::SegmentedSurface>(&out)) {
+      *parts = {scaled(parts->base, s), scaled(parts->segment, s), scaled(parts->segment_placement, s),
+                parts->boundary};
+      std::ranges::for_each(parts->boundary, [s](glm::dvec2& p) { p *= s; });
+    }
+  }
   return out;
 }
 
@@ -99,6 +134,8 @@ inline lenses::Lens scaled(const lenses::Lens& lens, double s) {
   lenses::Lens out = lens;
   out.front = scaled(lens.front, s);
   out.back = scaled(lens.back, s);
+  out.front_placement = scaled(lens.front_placement, s);
+  out.back_placement = scaled(lens.back_placement, s);
   out.centre_thickness *= s;
   out.diameter *= s;
   out.fit.vertex_distance *= s;

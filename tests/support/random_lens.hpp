@@ -46,9 +46,12 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-inline constexpr std::size_t kSurfaceKinds = 6;
-inline constexpr const char* kSurfaceNames[kSurfaceKinds] = {"plane", "sphere",          "conic",
-                                                             "torus", "bspline_heights", "bspline_surface"};
+// The shapes in the order of Surface, then any of them placed, and two of them as base and segment.
+inline constexpr std::size_t kShapes = 6;
+inline constexpr std::size_t kPlacedKind = 6, kSegmentedKind = 7;
+inline constexpr std::size_t kSurfaceKinds = 8;
+inline constexpr const char* kSurfaceNames[kSurfaceKinds] = {
+    "plane", "sphere", "conic", "torus", "bspline_heights", "bspline_surface", "placed", "segmented"};
 
 // Knots over [low, high] in `cells` intervals: end knots repeated, or continued at the same spacing.
 inline std::vector<double> even_knots(double low, double high, std::size_t cells, bool repeat_ends) {
@@ -126,8 +129,8 @@ inline HeightFunction wavy_sphere(Random& random, double curvature) {
   };
 }
 
-// A surface of the given kind (index into Surface) that curves about like a sphere of this curvature.
-inline lenses::Surface ordinary_surface(Random& random, std::size_t kind, double curvature) {
+// A shape (index into BasicSurface) that curves about like a sphere of this curvature.
+inline lenses::BasicSurface ordinary_shape(Random& random, std::size_t kind, double curvature) {
   const double half = 0.045;
   switch (kind) {
     case 0:
@@ -153,6 +156,51 @@ inline lenses::Surface ordinary_surface(Random& random, std::size_t kind, double
   }
 }
 
+// Some prism dioptres, some millimetres off the axis.
+inline lenses::Placement ordinary_placement(Random& random) {
+  return {{random.uniform(-0.004, 0.004), random.uniform(-0.004, 0.004)},
+          {random.uniform(-0.04, 0.04), random.uniform(-0.04, 0.04)},
+          random.uniform(-1e-4, 1e-4)};
+}
+
+// A circle about `centre` cut off flat at `top` above it, or any other polygon that goes once around.
+inline std::vector<glm::dvec2> ordinary_boundary(Random& random) {
+  const glm::dvec2 centre(random.uniform(-0.004, 0.004), random.uniform(-0.012, 0.0));
+  const double radius = random.uniform(0.008, 0.016);
+  const double top = random.uniform(0.2, 1.0) * radius;
+  const std::size_t corners = 3 + random.pick(40);
+  const double turned = random.uniform(0.0, 1.0);
+  std::vector<glm::dvec2> boundary;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) + turned) / static_cast<double>(corners);
+    boundary.push_back(centre + glm::dvec2(radius * std::cos(angle), std::min(top, radius * std::sin(angle))));
+  }
+  return boundary;
+}
+
+// Curved about like a sphere of this curvature, the segment up to 3 D more; a ledge of about a tenth of a millimetre.
+inline lenses::SegmentedSurface ordinary_segmented(Random& random, double curvature) {
+  lenses::SegmentedSurface surface;
+  surface.base = ordinary_shape(random, random.pick(kShapes), curvature);
+  surface.segment = ordinary_shape(random, random.pick(kShapes), curvature + random.uniform(1.0, 6.0));
+  surface.segment_placement = ordinary_placement(random);
+  surface.segment_placement.decentration.y -= 0.006;
+  surface.boundary = ordinary_boundary(random);
+  return surface;
+}
+
+// Of the given kind (index into kSurfaceNames).
+inline void set_ordinary_surface(Random& random, std::size_t kind, double curvature, lenses::Surface& surface,
+                                 lenses::Placement& placement) {
+  if (kind == kSegmentedKind) {
+    surface = ordinary_segmented(random, curvature);
+  } else {
+    const std::size_t shape = kind == kPlacedKind ? random.pick(kShapes) : kind;
+    surface = std::visit([](auto&& s) { return lenses::Surface(s); }, ordinary_shape(random, shape, curvature));
+  }
+  placement = kind >= kShapes ? ordinary_placement(random) : lenses::Placement{};
+}
+
 // Spectacles that could be worn: 2 to 9 D in front, -8 to +6 D in all, thick enough at the edge and in the middle.
 inline lenses::Lens ordinary_lens(Random& random, std::size_t front_kind, std::size_t back_kind) {
   lenses::Lens lens;
@@ -164,8 +212,8 @@ inline lenses::Lens ordinary_lens(Random& random, std::size_t front_kind, std::s
   lens.diameter = 0.056;
   const double edge_loss = 0.5 * (front - back) * 0.028 * 0.028;
   lens.centre_thickness = 0.0025 + std::max(0.0, 1.3 * edge_loss);
-  lens.front = ordinary_surface(random, front_kind, front);
-  lens.back = ordinary_surface(random, back_kind, back);
+  set_ordinary_surface(random, front_kind, front, lens.front, lens.front_placement);
+  set_ordinary_surface(random, back_kind, back, lens.back, lens.back_placement);
   lens.fit.vertex_distance = random.uniform(0.010, 0.018);
   lens.fit.decentration = {random.uniform(-0.004, 0.004), random.uniform(-0.004, 0.004)};
   lens.fit.pantoscopic_tilt = random.uniform(-5.0, 15.0) * kRadians;

@@ -111,9 +111,11 @@ TEST(LensReader, NamesTheFieldOfEveryLensError) {
           {"/version", "2", "version", "is 2, newer than this program reads; version 1 is allowed"},
           {"/version", "\"1\"", "version", "must be the number 1"},
           {"/version", "0", "version", "must be the number 1"},
-          {"/prescription", "{\"sphere\": 1}", "prescription", "is not read in this version"},
-          {"/design", "\"bifocal\"", "design", "index, centre_thickness_mm, diameter_mm, front and back"},
-          {"/material", "\"CR-39\"", "material", "is not read in this version"},
+          {"/prescription", "{\"sphere\": 1}", "front", "is given beside prescription"},
+          {"/design", "\"bifocal\"", "design", "is given without a prescription"},
+          {"/material", "\"CR-39\"", "material", "is given without a prescription"},
+          {"/order", "{}", "order.ordered", "is missing; must be a prescription"},
+          {"/order", "{\"ordered\": {\"cylinder\": 1}}", "order.ordered.sphere", "is missing; must be a number"},
       });
 }
 

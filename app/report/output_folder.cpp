@@ -1,0 +1,27 @@
+#include "app/report/output_folder.hpp"
+
+#include <unistd.h>
+
+#include <span>
+#include <system_error>
+
+#include "render/image/output_file.hpp"
+#include "tracking/input_error.hpp"
+
+namespace app {
+
+std::filesystem::path made_folder(const std::string& option, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error) || ::access(folder.c_str(), W_OK) != 0) {
+    throw tracking::InputError(option, "",
+                               "'" + folder + "' cannot be made; a folder that can be written to is expected");
+  }
+  return folder;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  render::write_file(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace app

@@ -27,7 +27,7 @@ void read_line(std::string_view line) {
   // A request may name any file of this machine, a device among them.
   if (line.find("lens_file") != std::string_view::npos) return;
   try {
-    (void)lenses::parse_trace_line(line, "fuzz.jsonl", 1, "/nonexistent");
+    (void)lenses::parse_trace_line(line, "/nonexistent/fuzz.jsonl", 1, "/nonexistent");
   } catch (const tracking::InputError& error) {
     (void)lenses::format_trace_error(lenses::trace_line_id(line), error.what());
   }

@@ -174,6 +174,7 @@ TEST(SagFile, GivesALensItsSurface) {
       lenses::parse_lens(lens_text(R"("path": "progressive_add200_right.sdf")"), folder + "x.json");
   const auto fit = fit_sag_file(lenses::read_sag_file(kSample), kSample);
   EXPECT_EQ(std::get<lenses::BsplineHeightField>(lens.front), fit.surface);
+  EXPECT_EQ(lenses::read_lens(folder + "progressive_sdf_right.json").front, lens.front);
   const auto smooth = lenses::parse_lens(
       lens_text(R"("path": "progressive_add200_right.sdf", "rows": "bottom", "smoothing_um": 1, "height_mm": 0.5)"),
       folder + "x.json");

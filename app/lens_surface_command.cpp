@@ -201,7 +201,13 @@ Action add_lens_from_sdf_command(CLI::App& lens) {
   command->add_option("--diameter", options->diameter, "mm (what the table covers)");
   command->add_option("--output", options->output, "Lens file to write")->capture_default_str();
   command->add_flag("--json", options->json, "Report as JSON");
-  return [options] { return from_sdf(*options); };
+  return [options] {
+    try {
+      return from_sdf(*options);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(options->input, "", std::string("makes no lens: ") + error.what());
+    }
+  };
 }
 
 Action add_lens_to_sdf_command(CLI::App& lens) {

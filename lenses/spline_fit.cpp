@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include "lenses/grid_fit.hpp"
 #include "lenses/scattered_fit.hpp"
@@ -16,8 +17,9 @@ namespace {
 
 constexpr std::size_t kFewestControls = 12;  // of a net tried, where there are as many samples
 constexpr std::size_t kMostScatteredControls = 50;
-constexpr double kLeastNoise = 1e-13;  // m: heights in double precision are no better
-constexpr double kSamePlace = 1e-9;    // m: nearer places are one grid line
+constexpr std::size_t kMostScatteredSamples = 250000;  // each is 16 entries of a sparse matrix
+constexpr double kLeastNoise = 1e-13;                  // m: heights in double precision are no better
+constexpr double kSamePlace = 1e-9;                    // m: nearer places are one grid line
 constexpr double kLeastWeight = 1e-10, kMostWeight = 1e10;
 
 struct Places {
@@ -216,6 +218,11 @@ SplineFit fit_grid(const Problem& problem, const Eigen::MatrixXd& heights) {
 }
 
 SplineFit fit_scattered(const Problem& problem) {
+  if (problem.detrended.size() > kMostScatteredSamples) {
+    throw std::invalid_argument(std::to_string(problem.detrended.size()) +
+                                " points are too many where they fill no grid; up to " +
+                                std::to_string(kMostScatteredSamples) + " are allowed");
+  }
   // About two samples a cell at least, or the penalty alone would shape most of the surface.
   const double width = problem.places.x.back() - problem.places.x.front();
   const double height = problem.places.y.back() - problem.places.y.front();

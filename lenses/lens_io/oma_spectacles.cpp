@@ -141,12 +141,17 @@ class LensMaker {
 
   // The record that a field of a request came from.
   [[nodiscard]] static std::string_view label_of(const std::string& field) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kLabels{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kLabels{
         {{"centre_thickness_mm", "CTHICK"},
          {"index", "LIND"},
          {"outline", "R"},
          {"base_curve_D", "FRNT"},
          {"corridor_mm", "CORRLEN"},
+         {"inset_mm", "NPD"},
+         {"segment_top_mm", "SEGHT"},
+         {"fit.vertex_distance_mm", "BVD"},
+         {"fit.pantoscopic_tilt_deg", "PANTO"},
+         {"fit.wrap_deg", "ZTILT"},
          {"prescription.add", "ADD"},
          {"prescription.cylinder", "CYL"},
          {"prescription.prism", "PRVM"}}};

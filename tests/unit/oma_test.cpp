@@ -347,6 +347,16 @@ TEST(OmaWriter, ChangesWhatHasChanged) {
   EXPECT_EQ(job_of(pair, "t.json", {.base = job}).text(), expected);
 }
 
+// A job of a frame alone gets the lenses; what it said already stays.
+TEST(OmaWriter, CompletesAJobOfAFrame) {
+  const std::string frame = "JOB=7\nDBL=20\nTRCFMT=1;8;E;R;F\nR=2600;2500;2000;2500;2600;2500;2000;2500\n";
+  const Spectacles pair = lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/myopia.json");
+  const std::string text = job_of(pair, "t.json", {.base = parse_oma(frame, "t.oma")}).text();
+  EXPECT_TRUE(text.starts_with("JOB=7\nDBL=20\n"));
+  EXPECT_NE(text.find("\nCTHICK=1.2;1.2\n"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with(frame.substr(frame.find("TRCFMT")))) << text;
+}
+
 // A new job of any spectacles reads back as the same lenses, as far as tables hold them.
 TEST(OmaWriter, MakesAJobOfSpectacles) {
   for (const std::string name : {"presbyopia_bspline_torus", "myopia", "astigmatism"}) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <sstream>
@@ -128,17 +129,69 @@ BenchProgress progress_line() {
   };
 }
 
-std::filesystem::path made_folder(const std::string& option, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0) {
-    throw InputError(option, "", "'" + folder + "' cannot be made; a folder that can be written to is expected");
+// A folder for what a run writes, said to be impossible before minutes of work; where the run fails, one made for it
+// goes again as long as it is empty.
+class OutputFolder {
+ public:
+  OutputFolder(const std::string& option, const std::string& folder)
+      : path_(folder), is_new_(!std::filesystem::exists(folder)) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!std::filesystem::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0) {
+      throw InputError(option, "", "'" + folder + "' cannot be made; a folder that can be written to is expected");
+    }
   }
-  return folder;
-}
+  ~OutputFolder() {
+    if (std::error_code error; is_new_ && std::filesystem::is_empty(path_, error) && !error) {
+      std::filesystem::remove(path_, error);
+    }
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool is_new_;
+};
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
   render::write_file(file, std::as_bytes(std::span(text)));
+}
+
+void draw_figures(const BenchOptions& options) {
+  const OutputFolder folder("--figures", options.figures);
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  const auto progress = [&](const std::string& name) {
+    if (is_watched) {
+      std::fprintf(stderr, "%s\n", name.c_str());
+    }
+  };
+  for (const std::string& file : write_figures({folder.path(), options.scene.scene, options.device}, progress)) {
+    std::cout << file << '\n';
+  }
+}
+
+void measure(const BenchOptions& options) {
+  const BenchConfig config = config_of(options);
+  std::optional<OutputFolder> folder;
+  if (!options.output.empty()) {
+    folder.emplace("--output", options.output);
+  }
+  const render::Scene scene = render::read_gltf(options.scene.scene);
+  const BenchProgress progress = progress_line();
+  const BenchReport report = run_bench(config, scene, progress);
+  if (progress) {
+    std::fprintf(stderr, "\r%-79s\r", "");
+  }
+  if (folder) {
+    write_text(folder->path() / "bench.csv", rows_csv(report.rows, report.peers));
+    write_text(folder->path() / "bench.svg", to_svg(bench_chart(report)));
+    render::write_png(folder->path() / "bench.png", to_image(bench_chart(report)));
+    write_text(folder->path() / "report.html", bench_page(report));
+  }
+  std::cout << (options.json ? rows_json(report.rows, report.peers) : bench_table(report));
 }
 
 int bench(BenchOptions options) {
@@ -149,27 +202,9 @@ int bench(BenchOptions options) {
     options.scene.scene = (cars.empty() ? built_in_scene() : cars).string();
   }
   if (!options.figures.empty()) {
-    const FigureOptions figures{made_folder("--figures", options.figures), options.scene.scene, options.device};
-    for (const std::string& file : write_figures(figures)) {
-      std::cout << file << '\n';
-    }
+    draw_figures(options);
   } else {
-    const BenchConfig config = config_of(options);
-    const std::filesystem::path folder =
-        options.output.empty() ? std::filesystem::path() : made_folder("--output", options.output);
-    const render::Scene scene = render::read_gltf(options.scene.scene);
-    const BenchProgress progress = progress_line();
-    const BenchReport report = run_bench(config, scene, progress);
-    if (progress) {
-      std::fprintf(stderr, "\r%-79s\r", "");
-    }
-    if (!folder.empty()) {
-      write_text(folder / "bench.csv", rows_csv(report.rows, report.peers));
-      write_text(folder / "bench.svg", to_svg(bench_chart(report)));
-      render::write_png(folder / "bench.png", to_image(bench_chart(report)));
-      write_text(folder / "report.html", bench_page(report));
-    }
-    std::cout << (options.json ? rows_json(report.rows, report.peers) : bench_table(report));
+    measure(options);
   }
   std::cout.flush();
   if (!std::cout) {

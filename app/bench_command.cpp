@@ -160,6 +160,16 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   render::write_file(file, std::as_bytes(std::span(text)));
 }
 
+// Figures have their own eyes, lenses and sizes.
+void refuse_beside_figures(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--figures" && name != "--scene" && name != "--device") {
+      throw InputError(name, "", "cannot be given together with --figures, which takes --scene and --device only");
+    }
+  }
+}
+
 void draw_figures(const BenchOptions& options) {
   const OutputFolder folder("--figures", options.figures);
   const bool is_watched = ::isatty(STDERR_FILENO) != 0;
@@ -256,16 +266,16 @@ Action add_bench_command(CLI::App& program) {
   command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();
   command->add_option("--output", options->output, "Folder for bench.csv, a chart (svg, png) and report.html");
   command->add_flag("--json", options->json, "Print the rows as JSON");
-  auto* figures = command->add_option("--figures", options->figures,
-                                      "Folder for the paper's Figures 1, 4, 5 and 6; measures nothing");
-  // Figures have their own eyes, lenses and sizes.
-  for (CLI::Option* option : command->get_options()) {
-    if (const std::string name = option->get_name(); name != "--help" && name != "--figures" && name != "--scene") {
-      figures->excludes(option);
-    }
-  }
+  command->add_option(
+      "--figures", options->figures,
+      "Folder for the paper's Figures 1, 4, 5 and 6; measures nothing, and takes --scene and --device only");
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
-  return [options] { return bench(*options); };
+  return [options, command] {
+    if (!options->figures.empty()) {
+      refuse_beside_figures(*command);
+    }
+    return bench(*options);
+  };
 }
 
 }  // namespace app

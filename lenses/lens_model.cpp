@@ -60,10 +60,10 @@ void round_surface(To& to, const From& from) {
   to.parts = from.parts;
 }
 
-// Whether the surfaces may cross within the lens's cylinder: no, where samples of the gap between them leave no room for
-// it. 1.5: how much steeper the gap may be between samples than at them.
+// Whether the surfaces may cross within the lens's cylinder: no, where samples of the gap between them leave no room
+// for it. 1.5: how much steeper the gap may be between samples than at them.
 bool may_cross(const f64::LensData& lens, const std::vector<glm::dvec4>& table) {
-  constexpr int kSamples = 32;  // along a half diameter
+  constexpr int kSamples = 32;                                       // along a half diameter
   if (lens.back.parts.z > 0 || lens.front.parts.z > 0) return true;  // the walls of segments
   const double step = lens.glass.z / kSamples;
   double least = 1e30;

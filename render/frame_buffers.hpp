@@ -31,7 +31,7 @@ struct FrameBuffers {
         ray_origins(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
         ray_directions(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
         hits(device, s.hits ? s.pixels * 4 : 4, vk::Memory::device),
-        list(device, (s.pixels + 1) * 4, vk::Memory::device),
+        list(device, (s.pixels + 4) * 4, vk::Memory::device),
         radiance(device, s.pixels * 8, vk::Memory::device),
         display(device, s.pixels * 4, vk::Memory::device) {}
 

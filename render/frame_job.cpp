@@ -1,6 +1,8 @@
 #include "render/frame_job.hpp"
 
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "render/gpu_tracer.hpp"
 #include "render/map_range.hpp"
@@ -15,7 +17,11 @@ static_assert(gpu::kModePinhole == static_cast<int>(Mode::pinhole) && gpu::kMode
               gpu::kModeAccommodation == static_cast<int>(Mode::accommodation) &&
               gpu::kModeBlur == static_cast<int>(Mode::blur));
 
-constexpr std::uint32_t kTile = 8;      // local size of the frame's kernels
+constexpr std::uint32_t kGroup = 8;  // local size of the frame's kernels
+// What a bare picture keeps of a scene: where faces are, and their base colour.
+constexpr auto kBareFeatures =
+    static_cast<std::uint32_t>(gpu::kFeatureCull | gpu::kFeatureMask | gpu::kFeatureTexture | gpu::kFeatureColours |
+                               gpu::kFeatureSecondUv | gpu::kFeatureTransform | gpu::kFeatureUnlit);
 constexpr float kLargestBlur = 512.0F;  // px; beyond it nothing is left to see
 constexpr float kNoBlurDrawn = 1e9F;    // px, as a threshold
 
@@ -52,6 +58,9 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config);
   variant_.bare = config.bare;
+  if (config.bare) {
+    variant_.scene_features &= kBareFeatures;
+  }
   variant_.found = traversal == Traversal::tile;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
   data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
@@ -78,7 +87,7 @@ void FrameJob::record_trace(vk::Commands& commands) {
 void FrameJob::aim(vk::Commands& commands) {
   const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list});
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
-    commands.fill_zero(out_.list);
+    empty_list(commands);
     commands.barrier();
     dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
     commands.barrier();
@@ -93,10 +102,11 @@ void FrameJob::find_hits_by_tile(vk::Commands& commands) {
   aim(commands);
   commands.timestamp("rays");
   commands.barrier();
-  commands.fill_zero(out_.list);
+  empty_list(commands);
   commands.barrier();
-  dispatch(commands, kernels_.get(Stage::tile, variant_),
-           {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
+  dispatch(
+      commands, kernels_.get(Stage::tile, variant_),
+      {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
   commands.barrier();
   dispatch_list(commands, kernels_.get(Stage::left_out, variant_),
                 with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list}));
@@ -107,7 +117,7 @@ void FrameJob::find_hits_by_tile(vk::Commands& commands) {
 void FrameJob::record_edges(vk::Commands& commands) {
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     commands.barrier();
-    commands.fill_zero(out_.list);
+    empty_list(commands);
     commands.barrier();
     dispatch_view(commands, kernels_.get(Stage::find_edges), {&out_.pixels, &out_.keys, &out_.list});
     commands.barrier();
@@ -118,13 +128,15 @@ void FrameJob::record_edges(vk::Commands& commands) {
 
 void FrameJob::record_blur(vk::Commands& commands) {
   commands.barrier();
-  dispatch(commands, kernels_.get(Stage::blur), {&out_.pixels, &out_.radiance});
+  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
+           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
   commands.timestamp("blur");
 }
 
 void FrameJob::record_encode(vk::Commands& commands) {
   commands.barrier();
-  dispatch(commands, kernels_.get(Stage::encode), {&out_.radiance, &out_.wavefronts, &out_.display});
+  dispatch(commands, kernels_.get(is_map(config_.mode) ? Stage::colour : Stage::encode),
+           {is_map(config_.mode) ? &out_.wavefronts : &out_.radiance, &out_.display});
   commands.timestamp("encode");
 }
 
@@ -136,7 +148,7 @@ void FrameJob::record_sample(vk::Commands& commands, int index) {
 
 // The view of data_.view.
 void FrameJob::dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; };
+  const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kGroup - 1) / kGroup; };
   commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
 }
 
@@ -147,7 +159,12 @@ void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const 
 }
 
 void FrameJob::dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  commands.dispatch(kernel, buffers, vk::bytes_of(data_), gpu::kListWorkgroups);
+  commands.dispatch_indirect(kernel, buffers, vk::bytes_of(data_), out_.list);
+}
+
+void FrameJob::empty_list(vk::Commands& commands) {
+  constexpr std::array<std::uint32_t, gpu::kListFirstAt> kEmpty{0, 1, 1, 0};
+  commands.update(out_.list, std::as_bytes(std::span(kEmpty)));
 }
 
 void FrameJob::trace_with(vk::Commands& commands, Stage stage, const Buffers& own) {

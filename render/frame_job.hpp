@@ -35,6 +35,7 @@ class FrameJob {
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void empty_list(vk::Commands& commands);
   void trace_with(vk::Commands& commands, Stage stage, const Buffers& own);
   [[nodiscard]] Buffers with_scene(const Buffers& own) const;
 

@@ -6,7 +6,9 @@
 
 #include "render/frame_types.hpp"
 #include "shaders/blur.hpp"
+#include "shaders/blur_encode.hpp"
 #include "shaders/chief.hpp"
+#include "shaders/colour.hpp"
 #include "shaders/dof.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
@@ -55,8 +57,8 @@ Recipe recipe_of(Stage stage) {
               {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
               Constants::lanes_and_features};
     case Stage::left_out:
-      return {"left_out", shaders::left_out, scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}),
-              Constants::scene};
+      return {"left_out", shaders::left_out,
+              scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}), Constants::scene};
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
     case Stage::find_edges:
@@ -67,10 +69,14 @@ Recipe recipe_of(Stage stage) {
       return {"samples", shaders::dof, scene_and(3), Constants::scene};
     case Stage::blur:
       return {"blur", shaders::blur, {texel_rgba32ui, storage_buffer}, Constants::none};
+    case Stage::blur_encode:
+      return {"blur_encode", shaders::blur_encode, {texel_rgba32ui, storage_buffer}, Constants::none};
     case Stage::encode:
+      return {"encode", shaders::encode, {texel_rg32ui, storage_buffer}, Constants::none};
+    case Stage::colour:
       break;
   }
-  return {"encode", shaders::encode, std::vector<Binding>(3, storage_buffer), Constants::none};
+  return {"colour", shaders::colour, {texel_rgba32f, storage_buffer}, Constants::none};
 }
 
 }  // namespace

@@ -10,7 +10,20 @@
 
 namespace render {
 
-enum class Stage : std::uint32_t { rays, unsettled, tile, left_out, chief, find_edges, edges, samples, blur, encode };
+enum class Stage : std::uint32_t {
+  rays,
+  unsettled,
+  tile,
+  left_out,
+  chief,
+  find_edges,
+  edges,
+  samples,
+  blur,
+  blur_encode,
+  encode,
+  colour
+};
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {

@@ -69,7 +69,8 @@ struct Renderer::State {
       job.record_blur(commands);
     }
     const bool encode_later = config.mode == Mode::dof || (is_map(config.mode) && !config.range);
-    if (!encode_later) {
+    const bool blur_encodes = !is_map(config.mode) && config.mode != Mode::dof && !config.keep_radiance;
+    if (!encode_later && !blur_encodes) {
       job.record_encode(commands);
     }
     add_times(result.stages, device.run(commands));

@@ -18,10 +18,10 @@ class TimedTrace {
   TimedTrace(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, const lenses::LensModel& lenses,
              const std::vector<ViewSetup>& views, const FrameConfig& frame, Traversal traversal)
       : device_(device),
-        out_(device, {.pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) *
-                                views.size(),
-                      .wavefront = keeps_wavefront(frame),
-                      .hits = traversal == Traversal::tile}),
+        out_(device,
+             {.pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * views.size(),
+              .wavefront = keeps_wavefront(frame),
+              .hits = traversal == Traversal::tile}),
         job_(device, scene, kernels, out_, lenses, views, frame, traversal),
         commands_(device) {
     job_.record_trace(commands_);

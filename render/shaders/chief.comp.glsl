@@ -61,5 +61,7 @@ void main() {
     }
   }
   pixels[at] = pack_pixel(ray.radiance, ellipse, ray.depth);
-  keys[at] = pack_key(ray);
+  if (kBare == 0u) {  // a bare picture has no edge rays
+    keys[at] = pack_key(ray);
+  }
 }

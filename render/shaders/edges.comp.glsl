@@ -15,9 +15,9 @@ void main() {
   ViewData view = views[frame.view.x];
   const vec2 offsets[4] =
       vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
-  uint count = edges[0];
-  for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) {
-    int at = int(edges[1u + i]);
+  uint count = edges[kListCountAt];
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
+    int at = int(edges[kListFirstAt + i]);
     int in_view = at - frame.view.x * frame.size.x * frame.size.y;
     vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
     uvec4 pixel = pixels[at];

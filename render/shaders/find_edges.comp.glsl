@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Lists the pixels at an edge: another material, face, status, depth or a jump of radiance beside them.
 #include "render/shaders/frame.h"
+#include "render/shaders/list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform usamplerBuffer pixels;
@@ -50,6 +51,6 @@ void main() {
     edge = differs(key, depth, base + q.y * size.x + q.x);
   }
   if (edge) {
-    edges[1u + atomicAdd(edges[0], 1u)] = uint(at);
+    APPEND(edges, uint(at))
   }
 }

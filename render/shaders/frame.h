@@ -28,6 +28,9 @@ struct FrameData {
 // A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
 const int kWavefrontTexels = 2;
 
-// Lists of pixels: the first word counts, the rest are indices. The kernels that work through a list start this many
-// workgroups and go round: an invocation with nothing to do costs a software device as much as one with work.
-const uint kListWorkgroups = 1024u;
+// A list of pixels: how many workgroups x, y, z go through it (vkCmdDispatchIndirect), how many items there are, the
+// items. list.glsl appends.
+const uint kListGroup = 64u;       // items of a workgroup
+const uint kListMostGroups = 65535u;
+const uint kListCountAt = 3u;
+const uint kListFirstAt = 4u;

@@ -10,9 +10,9 @@ layout(std430, binding = 12) writeonly buffer Hits { uint hits[]; };
 layout(std430, binding = 13) readonly buffer LeftOut { uint left_out[]; };
 
 void main() {
-  uint count = left_out[0];
-  for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) {
-    int at = int(left_out[1u + i]);
+  uint count = left_out[kListCountAt];
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
+    int at = int(left_out[kListFirstAt + i]);
     Hit hit;
     bool met = trace_closest(texelFetch(ray_origins, at).xyz, texelFetch(ray_directions, at).xyz, kFarthest, hit);
     hits[at] = met ? hit.triangle : kNoTriangle;

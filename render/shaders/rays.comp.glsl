@@ -6,6 +6,7 @@
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
 #include "render/shaders/ray_out.glsl"
+#include "render/shaders/list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 12) buffer Unsettled { uint unsettled[]; };
@@ -20,7 +21,7 @@ void main() {
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
   PixelRay ray = aim_pixel(view, pixel_direction(view, vec2(p) + 0.5), vec2(0.0), vec2(0.0));
   if (LENS_USED && ray.status == kStatusUnsettled) {
-    unsettled[1u + atomicAdd(unsettled[0], 1u)] = uint(at);
+    APPEND(unsettled, uint(at))
   }
   leave_ray(view, ray, at);
 }

@@ -14,6 +14,7 @@
 // axis is left out: its pixels are traced one by one (left_out.comp.glsl). Bounds are wider than rounding; a triangle that they keep out is
 // hit by no ray.
 #include "render/shaders/frame.h"
+#include "render/shaders/list.glsl"
 
 layout(constant_id = 0) const uint kLanes = 8u;  // of a subgroup: 8, 16, 32 or 64
 layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // kFeature... of view.h
@@ -290,7 +291,7 @@ void main() {
       hits[at] = found[r];
     }
     if (at >= 0 && direction.w >= 0.0 && !holds) {
-      left_out[1u + atomicAdd(left_out[0], 1u)] = uint(at);
+      APPEND(left_out, uint(at))
     }
   }
 }

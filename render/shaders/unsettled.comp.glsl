@@ -11,9 +11,9 @@ layout(std430, binding = 12) readonly buffer Unsettled { uint unsettled[]; };  /
 
 void main() {
   ViewData view = views[frame.view.x];
-  uint count = unsettled[0];
-  for (uint i = gl_GlobalInvocationID.x; i < count; i += 64u * gl_NumWorkGroups.x) {
-    int at = int(unsettled[1u + i]);
+  uint count = unsettled[kListCountAt];
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
+    int at = int(unsettled[kListFirstAt + i]);
     int in_view = at - frame.view.x * frame.size.x * frame.size.y;
     vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
     leave_ray(view, aim_pixel(view, pixel_direction(view, p + 0.5), vec2(0.0), vec2(0.0)), at);

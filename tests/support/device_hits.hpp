@@ -34,10 +34,12 @@ inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuf
   }
   buffers.ray_origins.write(origins);
   buffers.ray_directions.write(directions);
-  std::vector<std::uint32_t> list(count + 1);
+  std::vector<std::uint32_t> list(count + gpu::kListFirstAt);
+  list[1] = list[2] = 1;
   if (traversal == render::Traversal::per_ray) {
-    std::iota(list.begin() + 1, list.end(), 0U);
-    list[0] = static_cast<std::uint32_t>(count);
+    std::iota(list.begin() + gpu::kListFirstAt, list.end(), 0U);
+    list[0] = static_cast<std::uint32_t>((count + gpu::kListGroup - 1) / gpu::kListGroup);
+    list[gpu::kListCountAt] = static_cast<std::uint32_t>(count);
   }
   buffers.list.write(list);
   gpu::FrameData frame{};
@@ -58,15 +60,17 @@ inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuf
                       static_cast<std::uint32_t>(height + 7) / 8);
     commands.barrier();
   }
-  commands.dispatch(kernels.get(render::Stage::left_out, variant),
-                    {&table, &scene.bvh_nodes, &scene.bvh_triangles, &scene.shading_triangles, &scene.texels, &views,
-                     &scene.environment, &scene.lights, &scene.materials, &scene.textures, &buffers.ray_origins,
-                     &buffers.ray_directions, &buffers.hits, &buffers.list},
-                    render::vk::bytes_of(frame), gpu::kListWorkgroups);
+  const std::vector<const render::vk::Buffer*> all{
+      &table,           &scene.bvh_nodes, &scene.bvh_triangles, &scene.shading_triangles,
+      &scene.texels,    &views,           &scene.environment,   &scene.lights,
+      &scene.materials, &scene.textures,  &buffers.ray_origins, &buffers.ray_directions,
+      &buffers.hits,    &buffers.list};
+  commands.dispatch_indirect(kernels.get(render::Stage::left_out, variant), all, render::vk::bytes_of(frame),
+                             buffers.list);
   device.run(commands);
   DeviceHits hits;
   hits.triangle = buffers.hits.read<std::uint32_t>(count);
-  hits.left_out = buffers.list.read<std::uint32_t>(1)[0];
+  hits.left_out = buffers.list.read<std::uint32_t>(4)[gpu::kListCountAt];
   const auto triangles = scene.bvh_triangles.read<glm::vec4>(scene.bvh_triangles.bytes() / sizeof(glm::vec4));
   for (std::size_t i = 0; i < count; ++i) {
     if (directions[i].w < 0.0F) {

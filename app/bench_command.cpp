@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <sstream>
@@ -128,6 +129,49 @@ BenchProgress progress_line() {
   };
 }
 
+// Figures have their own eyes, lenses and sizes.
+void refuse_beside_figures(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--figures" && name != "--scene" && name != "--device") {
+      throw InputError(name, "", "cannot be given together with --figures, which takes --scene and --device only");
+    }
+  }
+}
+
+void draw_figures(const BenchOptions& options) {
+  const OutputFolder folder("--figures", options.figures);
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  const auto progress = [&](const std::string& name) {
+    if (is_watched) {
+      std::fprintf(stderr, "%s\n", name.c_str());
+    }
+  };
+  for (const std::string& file : write_figures({folder.path(), options.scene.scene, options.device}, progress)) {
+    std::cout << file << '\n';
+  }
+}
+
+void measure(const BenchOptions& options) {
+  const BenchConfig config = config_of(options);
+  std::optional<OutputFolder> folder;
+  if (!options.output.empty()) {
+    folder.emplace("--output", options.output);
+  }
+  const render::Scene scene = render::read_gltf(options.scene.scene);
+  const BenchProgress progress = progress_line();
+  const BenchReport report = run_bench(config, scene, progress);
+  if (progress) {
+    std::fprintf(stderr, "\r%-79s\r", "");
+  }
+  if (folder) {
+    write_text(folder->path() / "bench.csv", rows_csv(report.rows, report.peers));
+    write_text(folder->path() / "bench.svg", to_svg(bench_chart(report)));
+    render::write_png(folder->path() / "bench.png", to_image(bench_chart(report)));
+    write_text(folder->path() / "report.html", bench_page(report));
+  }
+  std::cout << (options.json ? rows_json(report.rows, report.peers) : bench_table(report));
+}
 
 int bench(BenchOptions options) {
   check_range("--rounds", options.rounds, 1, 1000, "");
@@ -137,27 +181,9 @@ int bench(BenchOptions options) {
     options.scene.scene = (cars.empty() ? built_in_scene() : cars).string();
   }
   if (!options.figures.empty()) {
-    const FigureOptions figures{made_folder("--figures", options.figures), options.scene.scene, options.device};
-    for (const std::string& file : write_figures(figures)) {
-      std::cout << file << '\n';
-    }
+    draw_figures(options);
   } else {
-    const BenchConfig config = config_of(options);
-    const std::filesystem::path folder =
-        options.output.empty() ? std::filesystem::path() : made_folder("--output", options.output);
-    const render::Scene scene = render::read_gltf(options.scene.scene);
-    const BenchProgress progress = progress_line();
-    const BenchReport report = run_bench(config, scene, progress);
-    if (progress) {
-      std::fprintf(stderr, "\r%-79s\r", "");
-    }
-    if (!folder.empty()) {
-      write_text(folder / "bench.csv", rows_csv(report.rows, report.peers));
-      write_text(folder / "bench.svg", to_svg(bench_chart(report)));
-      render::write_png(folder / "bench.png", to_image(bench_chart(report)));
-      write_text(folder / "report.html", bench_page(report));
-    }
-    std::cout << (options.json ? rows_json(report.rows, report.peers) : bench_table(report));
+    measure(options);
   }
   std::cout.flush();
   if (!std::cout) {
@@ -209,16 +235,16 @@ Action add_bench_command(CLI::App& program) {
   command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();
   command->add_option("--output", options->output, "Folder for bench.csv, a chart (svg, png) and report.html");
   command->add_flag("--json", options->json, "Print the rows as JSON");
-  auto* figures = command->add_option("--figures", options->figures,
-                                      "Folder for the paper's Figures 1, 4, 5 and 6; measures nothing");
-  // Figures have their own eyes, lenses and sizes.
-  for (CLI::Option* option : command->get_options()) {
-    if (const std::string name = option->get_name(); name != "--help" && name != "--figures" && name != "--scene") {
-      figures->excludes(option);
-    }
-  }
+  command->add_option(
+      "--figures", options->figures,
+      "Folder for the paper's Figures 1, 4, 5 and 6; measures nothing, and takes --scene and --device only");
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
-  return [options] { return bench(*options); };
+  return [options, command] {
+    if (!options->figures.empty()) {
+      refuse_beside_figures(*command);
+    }
+    return bench(*options);
+  };
 }
 
 }  // namespace app

@@ -157,19 +157,21 @@ Image8 figure_6(Studio& studio) {
 
 }  // namespace
 
-std::vector<std::string> write_figures(const FigureOptions& options) {
+std::vector<std::string> write_figures(const FigureOptions& options,
+                                       const std::function<void(const std::string& name)>& progress) {
   render::vk::Device device = open_device(options.device);
+  Studio scene(device, options.scene), room(device, built_in_scene().string());
   std::vector<std::string> files;
-  const auto write = [&](const std::string& name, const Image8& picture) {
+  const auto make = [&](const std::string& name, Image8 (*draw)(Studio&), Studio& studio) {
+    progress(name);
     const std::filesystem::path file = options.folder / name;
-    render::write_png(file, picture);
+    render::write_png(file, draw(studio));
     files.push_back(file.string());
   };
-  Studio scene(device, options.scene), room(device, built_in_scene().string());
-  write("figure_1.png", figure_1(scene));
-  write("figure_4.png", figure_4(scene));
-  write("figure_5.png", figure_5(scene));
-  write("figure_6.png", figure_6(room));
+  make("figure_1.png", figure_1, scene);
+  make("figure_4.png", figure_4, scene);
+  make("figure_5.png", figure_5, scene);
+  make("figure_6.png", figure_6, room);
   close_device(device);
   return files;
 }

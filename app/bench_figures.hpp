@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct FigureOptions {
   std::string device;
 };
 
-// Returns the files written.
-std::vector<std::string> write_figures(const FigureOptions& options);
+// Returns the files written; progress hears the name of each before it is drawn.
+std::vector<std::string> write_figures(const FigureOptions& options,
+                                       const std::function<void(const std::string& name)>& progress);
 
 }  // namespace app

@@ -1,6 +1,7 @@
 #include "app/bench_run.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <thread>
 #include <utility>
 
@@ -37,17 +38,30 @@ StageTimes times_of(const render::RenderedFrame& frame) {
   return times;
 }
 
+// Of this process, all threads together.
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
 // A frame that is timed again and again.
 struct Job {
   BenchRow row;
   const RenderSetup* setup;
   std::vector<StageTimes> rounds = {};
+  std::vector<double> cpu = {};
 };
 
 struct PeerJob {
   PeerRow row;
   const RenderSetup* setup;
-  std::vector<double> rounds = {};
+  std::vector<double> rounds = {}, cpu = {};
+};
+
+struct SizeJobs {
+  std::vector<Job> frames;
+  std::vector<PeerJob> peers;
 };
 
 class Bench {
@@ -68,11 +82,24 @@ class Bench {
     report_.device = device_.name();
     report_.triangles = scene_.triangles.size();
     report_.rounds = config_.rounds;
+    report_.on_processor = device_.limits().on_processor;
     const render::DeviceSpeed speed = render::measure_speed(device_);
     report_.gflops = speed.gflops;
     report_.gigabytes_per_s = speed.gigabytes_per_s;
+    std::vector<SizeJobs> sizes;
     for (const int size : config_.sizes) {
-      measure_size(size);
+      sizes.push_back(jobs_of(size));
+    }
+    // Round 0 compiles and does not count. In the others everything takes turns, sizes too, so that what else the
+    // machine does meets all of it alike.
+    for (int round = 0; round <= config_.rounds; ++round) {
+      for (SizeJobs& jobs : sizes) {
+        measure_frames(round, jobs.frames);
+        measure_peers(round, jobs.peers);
+      }
+    }
+    for (SizeJobs& jobs : sizes) {
+      report(jobs);
     }
     close_device(device_);
     return std::move(report_);
@@ -98,68 +125,80 @@ class Bench {
     return shading == "bare" || config_.shadings.size() == 1 || mode == "adof";
   }
 
-  void measure_size(int size) {
-    std::vector<Job> jobs;
-    std::vector<PeerJob> peers;
+  SizeJobs jobs_of(int size) {
+    SizeJobs jobs;
     for (std::size_t i = 0; i < config_.lenses.size(); ++i) {
       const std::string& lens = config_.lenses[i].name;
       for (const std::string& mode : config_.modes) {
         for (const std::string& shading : config_.shadings) {
           if (wanted(mode, shading)) {
-            jobs.push_back({BenchRow{.lens = lens,
-                                     .mode = mode,
-                                     .shading = shading,
-                                     .size = size,
-                                     .triangles = scene_.triangles.size(),
-                                     .ms = {},
-                                     .stages = {},
-                                     .device = device_.name()},
-                            &setups_[i]});
+            jobs.frames.push_back({BenchRow{.lens = lens,
+                                            .mode = mode,
+                                            .shading = shading,
+                                            .size = size,
+                                            .triangles = scene_.triangles.size(),
+                                            .ms = {},
+                                            .cpu = {},
+                                            .stages = {},
+                                            .device = device_.name()},
+                                   &setups_[i]});
           }
         }
       }
-      peers.push_back({PeerRow{lens, size, 0, {}}, &setups_[i]});
+      jobs.peers.push_back({PeerRow{lens, size, 0, {}}, &setups_[i]});
     }
-    // Round 0 compiles and touches memory; it does not count. The others take turns, so that what else the machine
-    // does meets all of them alike.
-    for (int round = 0; round <= config_.rounds; ++round) {
-      measure_frames(round, jobs);
-      if (round > 0) {
-        measure_peers(size, peers);
-      }
-    }
-    for (Job& job : jobs) {
-      set_times(job.row, job.rounds);
-      report_.rows.push_back(std::move(job.row));
-    }
-    for (PeerJob& peer : peers) {
-      peer.row.ms = spread_of(peer.rounds);
-      report_.peers.push_back(std::move(peer.row));
-    }
+    return jobs;
   }
 
   void measure_frames(int round, std::vector<Job>& jobs) {
+    // The first of a size pays for new buffers: once more, untimed.
+    static_cast<void>(drawn(jobs.front()));
     for (Job& job : jobs) {
       if (progress_) {
         progress_(job.row, round);
       }
-      StageTimes times =
-          times_of(renderer_.render(job.setup->lenses, job.setup->views, frame_config(job.row, config_)));
+      const double start = processor_ms();
+      StageTimes times = times_of(drawn(job));
+      const double cpu = processor_ms() - start;
       if (times.empty()) {
         throw render::vk::DeviceError(device_.name() + " has no timestamps; bench needs them");
       }
       if (round > 0) {
         job.rounds.push_back(std::move(times));
+        job.cpu.push_back(cpu);
       }
     }
   }
 
+  render::RenderedFrame drawn(const Job& job) {
+    return renderer_.render(job.setup->lenses, job.setup->views, frame_config(job.row, config_));
+  }
+
   // The rays are found anew each time, untimed: those of every lens at once would fill half a gigabyte.
-  void measure_peers(int size, std::vector<PeerJob>& peers) const {
+  void measure_peers(int round, std::vector<PeerJob>& peers) const {
+    if (round == 0) {
+      return;
+    }
     for (PeerJob& peer : peers) {
+      const int size = peer.row.size;
       const auto rays = render::chief_rays(peer.setup->views.front(), peer.setup->lenses, size, size);
       peer.row.rays = rays.size();
+      const double start = processor_ms();
       peer.rounds.push_back(peer_.trace(rays, report_.peer_threads).milliseconds);
+      peer.cpu.push_back(processor_ms() - start);
+    }
+  }
+
+  void report(SizeJobs& jobs) {
+    for (Job& job : jobs.frames) {
+      set_times(job.row, job.rounds);
+      job.row.cpu = spread_of(std::move(job.cpu));
+      report_.rows.push_back(std::move(job.row));
+    }
+    for (PeerJob& peer : jobs.peers) {
+      peer.row.ms = spread_of(std::move(peer.rounds));
+      peer.row.cpu = spread_of(std::move(peer.cpu));
+      report_.peers.push_back(std::move(peer.row));
     }
   }
 

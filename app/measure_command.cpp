@@ -150,15 +150,17 @@ int measure(const MeasureOptions& options) {
   if (by_hand) {
     subject.lens.order = by_hand;
   }
-  const std::filesystem::path folder =
-      options.output.empty() ? std::filesystem::path() : made_folder("--output", options.output);
+  std::optional<OutputFolder> folder;
+  if (!options.output.empty()) {
+    folder.emplace("--output", options.output);
+  }
   try {
     const MeasureReport report =
         measure_lens(subject.source, subject.lens, side_of(options),
                      options.form == "plus" ? lenses::CylinderForm::plus : lenses::CylinderForm::minus,
                      class_of(options, subject.lens), standard, by_hand ? std::nullopt : subject.other);
-    if (!folder.empty()) {
-      write_report(folder, options, report, eye);
+    if (folder) {
+      write_report(folder->path(), options, report, eye);
     }
     std::cout << (options.json ? measure_json(report) : measure_table(report));
   } catch (const std::invalid_argument& error) {

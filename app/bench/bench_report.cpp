@@ -50,16 +50,21 @@ std::string rows_of_size(const BenchReport& report, int size, const std::string&
       out = format("\n%dx%d, %s\n", size, size,
                    shading == "bare" ? "bare: base colours, one light, no shadow rays, one ray a pixel, as in the paper"
                                      : "full: every light with its shadow rays, edges refined");
-      out += format("%-*s mode    median ms      min      max      fps   GTX 480 ms   stages\n", lens_width(report),
-                    "lens");
+      out += format("%-*s mode    median ms      min      max      fps   cpu ms   GTX 480 ms   stages\n",
+                    lens_width(report), "lens");
     }
     const bool compared = shading == "bare" && paper_ms(row) > 0.0;
     const std::string paper = compared ? format("%12.2f", paper_ms(row)) : format("%12s", "-");
-    out +=
-        format("%-*s %-5s %11.2f %8.2f %8.2f %8.1f %s   %s\n", lens_width(report), row.lens.c_str(), row.mode.c_str(),
-               row.ms.median, row.ms.min, row.ms.max, row.fps(), paper.c_str(), stage_list(row).c_str());
+    out += format("%-*s %-5s %11.2f %8.2f %8.2f %8.1f %8.1f %s   %s\n", lens_width(report), row.lens.c_str(),
+                  row.mode.c_str(), row.ms.median, row.ms.min, row.ms.max, row.fps(), row.cpu.median, paper.c_str(),
+                  stage_list(row).c_str());
   }
   return out;
+}
+
+// Of the least of all rounds.
+std::string by_processor(const BenchReport& report, const Spread& over, const Spread& under) {
+  return report.on_processor && under.min > 0.0 ? format(", by processor time %.2f", over.min / under.min) : "";
 }
 
 std::string ratios_of_size(const BenchReport& report, int size) {
@@ -77,19 +82,21 @@ std::string ratios_of_size(const BenchReport& report, int size) {
     out += format("  scene rays: %.1f M/s (%s of none/pin), Embree16 %.1f M/s: %.2f of it\n", ours,
                   tile > 0.0 ? "tile stage" : "trace stage, shading included,", peer, ours / peer);
   }
+  const BenchRow* fine = find(report, kFineNetLens, "adof", size, "bare");
   if (plain != nullptr && spline != nullptr && plain->ms.median > 0.0) {
-    out += format("  bspline/sphere adof / none adof: %.2f (paper: %.2f)\n", spline->ms.median / plain->ms.median,
+    out += format("  bspline/sphere adof / none adof: %.2f%s (paper: %.2f)\n", spline->ms.median / plain->ms.median,
+                  by_processor(report, spline->cpu, plain->cpu).c_str(),
                   *paper_fps("none", "adof") / *paper_fps("bspline/sphere", "adof"));
   }
   if (spline != nullptr && spline_peer != nullptr) {
-    out += format("  bspline/sphere adof frame %.2f ms / Embree16 on its %zu scene rays %.2f ms (%.2f to %.2f): %.2f\n",
-                  spline->ms.median, spline_peer->rays, spline_peer->ms.median, spline_peer->ms.min,
-                  spline_peer->ms.max, spline->ms.median / spline_peer->ms.median);
+    out +=
+        format("  bspline/sphere adof frame %.2f ms / Embree16 on its %zu scene rays %.2f ms (%.2f to %.2f): %.2f%s\n",
+               spline->ms.median, spline_peer->rays, spline_peer->ms.median, spline_peer->ms.min, spline_peer->ms.max,
+               spline->ms.median / spline_peer->ms.median, by_processor(report, spline->cpu, spline_peer->cpu).c_str());
   }
-  const BenchRow* fine = find(report, kFineNetLens, "adof", size, "bare");
   if (spline != nullptr && fine != nullptr && spline->ms.median > 0.0) {
-    out += format("  100 x 100 control points / 50 x 50: frame %.3f (least over least %.3f), trace stage %.3f\n",
-                  fine->ms.median / spline->ms.median, fine->ms.min / spline->ms.min,
+    out += format("  100 x 100 control points / 50 x 50: frame %.3f%s, trace stage %.3f\n",
+                  fine->ms.median / spline->ms.median, by_processor(report, fine->cpu, spline->cpu).c_str(),
                   fine->stage("trace") / spline->stage("trace"));
   }
   return out.empty() ? out : format("\nRatios at %dx%d\n", size, size) + out;

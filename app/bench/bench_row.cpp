@@ -92,7 +92,7 @@ std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> p
         {"lens", row.lens},           {"mode", row.mode},           {"size", row.size},
         {"triangles", row.triangles}, {"ms_median", row.ms.median}, {"ms_min", row.ms.min},
         {"ms_max", row.ms.max},       {"fps", row.fps()},           {"stages_ms", nlohmann::ordered_json::object()},
-        {"device", row.device},       {"shading", row.shading}};
+        {"device", row.device},       {"shading", row.shading},     {"processor_ms", row.cpu.median}};
     for (const auto& [name, ms] : row.stages) {
       j["stages_ms"][name] = ms;
     }
@@ -102,6 +102,7 @@ std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> p
     if (const PeerRow* peer = peer_of(row, peers)) {
       j["embree16_rays"] = peer->rays;
       j["embree16_ms"] = peer->ms.median;
+      j["embree16_processor_ms"] = peer->cpu.median;
     }
     list.push_back(std::move(j));
   }
@@ -110,17 +111,19 @@ std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> p
 
 std::string rows_csv(std::span<const BenchRow> rows, std::span<const PeerRow> peers) {
   std::ostringstream out;
-  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,rays_ms,tile_ms,trace_ms,edges_ms,blur_ms,"
+  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,processor_ms,rays_ms,tile_ms,trace_ms,edges_ms,"
+         "blur_ms,"
          "samples_ms,encode_ms,"
-         "embree16_ms,paper_fps_at_1024,device\n";
+         "embree16_ms,embree16_processor_ms,paper_fps_at_1024,device\n";
   for (const BenchRow& row : rows) {
     out << field(row.lens) << ',' << row.mode << ',' << row.size << ',' << row.shading << ',' << row.triangles << ','
-        << row.ms.median << ',' << row.ms.min << ',' << row.ms.max << ',' << row.fps();
+        << row.ms.median << ',' << row.ms.min << ',' << row.ms.max << ',' << row.fps() << ',' << row.cpu.median;
     for (const char* stage : {"rays", "tile", "trace", "edges", "blur", "samples", "encode"}) {
       out << ',' << row.stage(stage);
     }
     const PeerRow* peer = peer_of(row, peers);
     out << ',' << (peer != nullptr ? std::to_string(peer->ms.median) : "") << ','
+        << (peer != nullptr ? std::to_string(peer->cpu.median) : "") << ','
         << (paper_fps(row.lens, row.mode) ? std::to_string(*paper_fps(row.lens, row.mode)) : "") << ','
         << quoted(row.device) << '\n';
   }

@@ -35,6 +35,7 @@ struct BenchRow {
   int size = 0;  // pixels along each side
   std::size_t triangles = 0;
   Spread ms;          // sum of a round's stages
+  Spread cpu;         // processor ms of all threads, reading the picture back included
   StageTimes stages;  // medians
   std::string device;
 
@@ -52,6 +53,7 @@ struct PeerRow {
   int size = 0;
   std::size_t rays = 0;
   Spread ms;
+  Spread cpu = {};  // processor ms of all threads
 };
 
 // Frames a second of Table 1 of the paper, at 1024 x 1024 on a GeForce GTX 480.

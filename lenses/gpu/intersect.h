@@ -42,19 +42,15 @@ VG_FUNCTION real sphere_crossing(real c, vec3 o, vec3 d, real dd, VG_INOUT(bool)
   return t;
 }
 
-VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
-  SurfaceHit hit;
-  hit.found = false;
-  hit.ledge = false;
-  hit.unsettled = false;
-  hit.t = real(0);
+// The part of a ray within the lens's cylinder, a hair wider so that the rim itself is inside: t from x to y, x > y if
+// there is none.
+VG_FUNCTION vec2 within_cylinder(KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
   vec2 from_axis = vec2(o.x, o.y);  // of the lens
   real reach = semi_diameter;
   if (IS_PLACED(s)) {
     from_axis += vec2(s.shift.x, s.shift.y);
     reach += abs(s.shift.x) + abs(s.shift.y);
   }
-  // The part of the ray within the lens's cylinder, a hair wider so that the rim itself is inside.
   real a = d.x * d.x + d.y * d.y;
   real b = from_axis.x * d.x + from_axis.y * d.y;
   real radius = semi_diameter * real(1.0001);
@@ -65,129 +61,138 @@ VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3
   if (a > kEpsilon * kEpsilon) {
     real disc = b * b - a * c;
     if (!(disc >= real(0))) {
-      return hit;
+      return vec2(real(1), real(0));
     }
     real root = sqrt(disc);
     t0 = max(t0, (-b - root) / a);
     t1 = min(t1, (-b + root) / a);
   }
-  if (!(t1 > t0)) {
-    return hit;
-  }
-  real low = t0;
-  real high = t0;
-  bool above = false;
-  bool bracketed = false;
-  for (int i = 0; i <= kBracketSamples; ++i) {
-    real t = t0 + (t1 - t0) * real(i) / real(kBracketSamples);
-    vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
-    SurfacePoint point = shape_point(TABLE KINDS(kinds) s, q);
-    real f = o.z + t * d.z - point.z;
-    if (!point.inside) {
-      above = false;
-    } else if (above && f <= real(0)) {
-      high = t;
-      bracketed = true;
-      break;
-    } else {
-      above = f > real(0);
-      low = t;
-    }
-  }
-  if (!bracketed) {
-    return hit;
-  }
-  real t = real(0.5) * (low + high);
-  for (int i = 0; i < kBisectionSteps; ++i) {
-    vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
-    hit.point = shape_point(TABLE KINDS(kinds) s, q);
-    real f = o.z + t * d.z - hit.point.z;
-    if (f > real(0)) {
-      low = t;
-    } else {
-      high = t;
-    }
-    real slope = d.z - hit.point.gradient.x * d.x - hit.point.gradient.y * d.y;
-    real next = t - f / slope;
-    if (!(next > low && next < high)) {
-      next = real(0.5) * (low + high);
-    }
-    if (abs(next - t) <= real(2) * kEpsilon * (abs(t) + abs(o.z))) {
-      break;
-    }
-    t = next;
-  }
-  hit.t = t;
-  hit.found = hit.point.inside;
-  return hit;
+  return vec2(t0, t1);
 }
 
-// In the axes of the surface's shape.
+// What shape_hit does next with the surface at its present t.
+const int kClosedForm = 0;  // t is the crossing
+const int kNewton = 1;
+const int kBracket = 2;     // look for a change of sign, kBracketSamples steps along the ray
+const int kRefine = 3;      // Newton's method kept between two t of different sign
+const int kMostEvaluations = kNewtonSteps + kBracketSamples + 1 + kBisectionSteps;
+
+// In the axes of the surface's shape. One loop with one evaluation of the surface in it: that code is by far the
+// largest here, and compilers copy it to each place that calls it.
 VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
   SurfaceHit hit;
   hit.found = false;
   hit.ledge = false;
   hit.unsettled = false;
+  hit.t = real(0);
   bool sheet = false;
   real dd = real(1);
   if (IS_PLACED(s)) {
     dd = dot(d, d);
   }
   real scale = abs(o.z) + semi_diameter;
-  if (IS_KIND(s, kPlane) || IS_KIND(s, kSphere)) {
-    real t = sphere_crossing(s.shape.x, o, d, dd, sheet);
-    hit.t = abs(t) <= real(4) * kEpsilon * scale ? real(0) : t;  // a start that touches the surface is a hit
-    vec2 q = vec2(o.x + hit.t * d.x, o.y + hit.t * d.y);
-    hit.point = shape_point(TABLE KINDS(kinds) s, q);
-    hit.found = sheet && hit.t >= real(0) && hit.point.inside;
-    return hit;
+  bool closed = IS_KIND(s, kPlane) || IS_KIND(s, kSphere);
+  vec3 from = closed ? o : vec3(o.x, o.y, o.z - s.frame.z);
+  real t = sphere_crossing(closed ? s.shape.x : s.frame.w, from, d, dd, sheet);
+  int phase = closed ? kClosedForm : kNewton;
+  int steps = 0;          // of the phase
+  real last = scale;      // Newton's last step
+  real low = real(0);     // on this side of the surface
+  real high = real(0);    // beyond it
+  bool above = false;
+  bool search = !closed && !sheet;
+  vec2 range = vec2(real(1), real(0));
+  if (!HURRIED) {
+    range = within_cylinder(KINDS(kinds) s, o, d, semi_diameter);
   }
-  vec3 from_guess = vec3(o.x, o.y, o.z - s.frame.z);
-  real t = sphere_crossing(s.frame.w, from_guess, d, dd, sheet);
-  bool settled = false;
-  if (sheet) {
-    real last = scale;
-    for (int i = 0; i < kNewtonSteps; ++i) {
-      vec2 q = vec2(o.x + t * d.x, o.y + t * d.y);
-      hit.point = shape_point(TABLE KINDS(kinds) s, q);
-      real slope = d.z - hit.point.gradient.x * d.x - hit.point.gradient.y * d.y;
-      // Below this slope (71 degrees of incidence) another crossing may come first; the search decides.
-      if (!(slope < real(-0.33))) {
+  if (closed && abs(t) <= real(4) * kEpsilon * scale) {
+    t = real(0);  // a start that touches the surface is a hit
+  }
+  for (int i = 0; i < kMostEvaluations; ++i) {
+    if (search) {
+      if (HURRIED || !(range.y > range.x)) {
+        hit.unsettled = HURRIED;
         break;
       }
-      real dt = -(o.z + t * d.z - hit.point.z) / slope;
+      search = false;
+      phase = kBracket;
+      steps = 0;
+      t = range.x;
+      low = t;
+    }
+    SurfacePoint point = shape_point(TABLE KINDS(kinds) s, vec2(o.x + t * d.x, o.y + t * d.y));
+    real f = o.z + t * d.z - point.z;
+    real slope = d.z - point.gradient.x * d.x - point.gradient.y * d.y;
+    ++steps;
+    if (phase == kClosedForm) {
+      hit.t = t;
+      hit.point = point;
+      hit.found = sheet && t >= real(0) && point.inside;
+      break;
+    }
+    if (phase == kNewton) {
+      real dt = -f / slope;
       real size = abs(dt);
-      // Rounding ends the iteration: within tolerance, or no longer shrinking once it is near it.
-      if (size <= real(2) * kEpsilon * scale || (size <= real(64) * kEpsilon * scale && size >= last)) {
-        settled = true;
+      // Rounding ends the iteration: within tolerance, or no longer shrinking once it is near it. Below this slope (71
+      // degrees of incidence) another crossing may come first; the search decides.
+      bool steep = slope < real(-0.33);
+      bool settled = steep && (size <= real(2) * kEpsilon * scale ||
+                               (size <= real(64) * kEpsilon * scale && size >= last));
+      if (settled && point.inside && t >= real(-4) * kEpsilon * scale) {
+        hit.t = max(t, real(0));
+        hit.point = point;
+        hit.found = true;
         break;
       }
+      search = settled || !steep || steps == kNewtonSteps;
       t += dt;
       last = size;
+    } else if (phase == kBracket) {
+      if (point.inside && above && f <= real(0)) {
+        high = t;
+        phase = kRefine;
+        steps = 0;
+        t = real(0.5) * (low + high);
+      } else {
+        low = point.inside ? t : low;
+        above = point.inside && f > real(0);
+        if (steps > kBracketSamples) {
+          break;
+        }
+        t = range.x + (range.y - range.x) * real(steps) / real(kBracketSamples);
+      }
+    } else {
+      low = f > real(0) ? t : low;
+      high = f > real(0) ? high : t;
+      real next = t - f / slope;
+      if (!(next > low && next < high)) {
+        next = real(0.5) * (low + high);
+      }
+      bool done = abs(next - t) <= real(2) * kEpsilon * (abs(t) + abs(o.z));
+      t = done ? t : next;
+      if (done || steps == kBisectionSteps) {
+        hit.t = t;
+        hit.point = point;
+        hit.found = point.inside;
+        break;
+      }
     }
   }
-  if (settled && hit.point.inside && t >= real(-4) * kEpsilon * scale) {
-    hit.t = max(t, real(0));
-    hit.found = true;
-    return hit;
-  }
-  if (HURRIED) {
-    hit.t = real(0);
-    hit.unsettled = true;
-    return hit;
-  }
-  return bracketed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
+  return hit;
 }
 
 VG_FUNCTION SurfaceHit placed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
+  vec3 shape_o = o;
+  vec3 shape_d = d;
   if (IS_PLACED(s)) {
-    vec3 shape_o = vec3(o.x - s.shift.x, o.y - s.shift.y, o.z - s.slope.x * o.x - s.slope.y * o.y - s.shift.z);
-    vec3 shape_d = vec3(d.x, d.y, d.z - s.slope.x * d.x - s.slope.y * d.y);
-    SurfaceHit hit = shape_hit(TABLE KINDS(kinds) s, shape_o, shape_d, semi_diameter);
-    hit.point = placed(s, hit.point, vec2(o.x + hit.t * d.x, o.y + hit.t * d.y));
-    return hit;
+    shape_o = vec3(o.x - s.shift.x, o.y - s.shift.y, o.z - s.slope.x * o.x - s.slope.y * o.y - s.shift.z);
+    shape_d = vec3(d.x, d.y, d.z - s.slope.x * d.x - s.slope.y * d.y);
   }
-  return shape_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
+  SurfaceHit hit = shape_hit(TABLE KINDS(kinds) s, shape_o, shape_d, semi_diameter);
+  if (IS_PLACED(s)) {
+    hit.point = placed(s, hit.point, vec2(o.x + hit.t * d.x, o.y + hit.t * d.y));
+  }
+  return hit;
 }
 
 // Base and segment count each on its own side of the boundary; the nearer of what counts is hit. A ray that meets both,
@@ -195,9 +200,22 @@ VG_FUNCTION SurfaceHit placed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o,
 // surfaces meet, rounding alone does that, and the base stands for both. Walls that a ray goes through on its way to or
 // from a surface that it rightly meets are not seen.
 VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
-  SurfaceHit hit = placed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
+  SurfaceHit hit;
+  SurfaceHit inner;
+  inner.found = false;
+  inner.unsettled = false;
+  // The segment first, so that what stays is the base's.
+  for (int part = IS_SEGMENTED(s) ? 1 : 0; part >= 0; --part) {
+    SurfaceData one = s;
+    if (IS_SEGMENTED(s) && part == 1) {
+      one = segment_surface(TABLE s);
+    }
+    hit = placed_hit(TABLE KINDS(kinds) one, o, d, semi_diameter);
+    if (part == 1) {
+      inner = hit;
+    }
+  }
   if (IS_SEGMENTED(s)) {
-    SurfaceHit inner = placed_hit(TABLE KINDS(kinds) segment_surface(TABLE s), o, d, semi_diameter);
     if (HURRIED && (hit.unsettled || inner.unsettled)) {
       hit.t = real(0);
       hit.found = false;

@@ -282,10 +282,15 @@ VG_FUNCTION SurfacePoint placed(SurfaceData s, SurfacePoint point, vec2 p) {
 }
 
 VG_FUNCTION SurfacePoint placed_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+  vec2 q = p;
   if (IS_PLACED(s)) {
-    return placed(s, shape_point(TABLE KINDS(kinds) s, p - vec2(s.shift.x, s.shift.y)), p);
+    q -= vec2(s.shift.x, s.shift.y);
   }
-  return shape_point(TABLE KINDS(kinds) s, p);
+  SurfacePoint point = shape_point(TABLE KINDS(kinds) s, q);
+  if (IS_PLACED(s)) {
+    point = placed(s, point, p);
+  }
+  return point;
 }
 
 // The second surface of a segmented one, as surface_model.cpp lays it down.
@@ -317,8 +322,9 @@ VG_FUNCTION bool in_segment(TABLE_PARAM SurfaceData s, vec2 p) {
 
 // The surface in lens axes.
 VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+  SurfaceData one = s;
   if (IS_SEGMENTED(s) && in_segment(TABLE s, p)) {
-    return placed_point(TABLE KINDS(kinds) segment_surface(TABLE s), p);
+    one = segment_surface(TABLE s);
   }
-  return placed_point(TABLE KINDS(kinds) s, p);
+  return placed_point(TABLE KINDS(kinds) one, p);
 }

@@ -29,6 +29,8 @@ DeviceLimits limits_of(const raii::PhysicalDevice& physical, const ::vk::QueueFa
   limits.shared_bytes = device.maxComputeSharedMemorySize;
   limits.timestamp_period_ns = family.timestampValidBits == 0 ? 0.0 : static_cast<double>(device.timestampPeriod);
   limits.has_float64 = has_float64;
+  limits.on_processor =
+      properties.get<::vk::PhysicalDeviceProperties2>().properties.deviceType == ::vk::PhysicalDeviceType::eCpu;
   return limits;
 }
 

@@ -201,8 +201,10 @@ Action add_bench_command(CLI::App& program) {
   command->footer(
       "Example:\n"
       "  vergence bench --lens none,bspline/sphere --mode adof --size 512,1024,2048 --output report\n"
-      "Rows that are called bare are drawn as the paper did, in base colours with one light, no shadow rays and one ray a\n"
-      "pixel, and stand beside its GTX 480; full rows are what render draws. One eye, the right. Frames take turns over several\n"
+      "Rows that are called bare are drawn as the paper did, in base colours with one light, no shadow rays and one "
+      "ray a\n"
+      "pixel, and stand beside its GTX 480; full rows are what render draws. One eye, the right. Frames take turns "
+      "over several\n"
       "rounds. Embree's packets of 16 rays trace the same scene rays in the same run, on all threads of the CPU.");
   add_scene_options(
       *command, options->scene,

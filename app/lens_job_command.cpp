@@ -71,7 +71,7 @@ int from_oma(const FromOptions& options) {
   check_range("--index", options.index, 1.3, 2.2, "");
   const lenses::JobSpectacles made =
       lenses::spectacles_of(lenses::io::read_oma(options.input),
-                    {.rows = options.sag.row_order(), .index = options.index, .fit = options.sag.fit_config()});
+                            {.rows = options.sag.row_order(), .index = options.index, .fit = options.sag.fit_config()});
   write_text(options.output, to_json(made.spectacles));
   if (options.json) {
     print_text(lenses::io::document_text(

@@ -47,6 +47,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
       kernels_(kernels),
       out_(out),
       config_(config),
+      traversal_(traversal),
       table_(filled_buffer(device, lenses::to_float(lenses.table))),
       views_(filled_buffer(device, view_data(lenses, views))) {
   std::vector<lenses::f64::LensData> worn;
@@ -61,7 +62,6 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
   }
-  variant_.found = traversal == Traversal::tile;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
   data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
   // A pinhole picture is the defocused one with nothing left to blur.
@@ -75,11 +75,13 @@ void FrameJob::set_range(const MapRange& range) {
 }
 
 void FrameJob::record_trace(vk::Commands& commands) {
-  if (variant_.found) {
+  if (traversal_ == Traversal::per_ray) {
+    trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
+  } else {
     find_hits_by_tile(commands);
+    trace_with(commands, Stage::found,
+               {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions});
   }
-  trace_with(commands, Stage::chief,
-             {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions});
   commands.timestamp("trace");
 }
 

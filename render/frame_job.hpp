@@ -43,6 +43,7 @@ class FrameJob {
   KernelSet& kernels_;
   FrameBuffers& out_;
   const FrameConfig& config_;
+  Traversal traversal_;
   vk::Buffer table_, views_;
   TraceVariant variant_;
   gpu::FrameData data_{};

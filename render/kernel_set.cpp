@@ -13,6 +13,7 @@
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
 #include "shaders/find_edges.hpp"
+#include "shaders/found.hpp"
 #include "shaders/left_out.hpp"
 #include "shaders/rays.hpp"
 #include "shaders/tile.hpp"
@@ -60,7 +61,9 @@ Recipe recipe_of(Stage stage) {
       return {"left_out", shaders::left_out,
               scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}), Constants::scene};
     case Stage::chief:
-      return {"trace", shaders::chief, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
+      return {"trace", shaders::chief, scene_and(3), Constants::chief};
+    case Stage::found:
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
     case Stage::find_edges:
       return {"find_edges", shaders::find_edges, {texel_rgba32ui, texel_rg32ui, storage_buffer}, Constants::none};
     case Stage::edges:
@@ -89,7 +92,7 @@ bool can_trace_tiles(const vk::DeviceLimits& limits) {
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
   // By constant id, then the stage.
-  std::array<std::uint32_t, 7> key{};
+  std::array<std::uint32_t, 6> key{};
   key.back() = static_cast<std::uint32_t>(stage);
   std::size_t count = 0;
   if (recipe.constants == Constants::lanes_and_features) {
@@ -105,8 +108,6 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
     key[3] = variant.keep_wavefront ? 1U : 0U;
-    key[5] = variant.found ? 1U : 0U;
-    count = 6;
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {

@@ -16,6 +16,7 @@ enum class Stage : std::uint32_t {
   tile,
   left_out,
   chief,
+  found,
   find_edges,
   edges,
   samples,
@@ -31,8 +32,7 @@ struct TraceVariant {
   std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
-  bool bare = false;   // one light, no shadow rays
-  bool found = false;  // what chief rays meet was found by Stage::tile
+  bool bare = false;  // one light, no shadow rays
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
@@ -46,7 +46,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 7>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 6>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

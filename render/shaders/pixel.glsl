@@ -119,8 +119,8 @@ PixelRay aim_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 moment
 
 // Completes a ray that is no rim: the layers along it, front to back; what blends lets the rest through. Depth, normal
 // and material are those of the layer that the eye sees most of: the first with more than half of the light in front of
-// its back. `met` and `hit`: what the first layer is.
-void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool met, Hit hit) {
+// its back. known: `met` and `hit` say already what the first layer is.
+void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool met, Hit hit) {
   if (ray.status == kStatusOk) {
     ray.transfer = sight_line_transfer(view.lens, ray.line);
   }
@@ -135,6 +135,9 @@ void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool met, Hit hit) 
   uint first_material = 0u;
   const int layers = HAS(kFeatureBlend) ? kMostLayers : 1;
   for (int layer = 0; layer < layers; ++layer) {
+    if (layer > 0 || !known) {
+      met = trace_closest(beyond.origin, beyond.direction, kFarthest, hit);
+    }
     Surface surface;
     surface.radiance = vec3(0.0);
     surface.normal = vec3(0.0);
@@ -171,7 +174,6 @@ void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool met, Hit hit) 
     float on = hit.t + lift(beyond.origin + hit.t * beyond.direction);
     beyond.origin += on * beyond.direction;
     before += on;
-    met = trace_closest(beyond.origin, beyond.direction, kFarthest, hit);
   }
   ray.radiance = radiance;
   if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
@@ -187,9 +189,8 @@ PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 mome
     return ray;
   }
   SceneRay beyond = scene_ray(view, ray);
-  Hit hit;
-  bool met = trace_closest(beyond.origin, beyond.direction, kFarthest, hit);
-  see(view, ray, beyond, met, hit);
+  Hit none;
+  see(view, ray, beyond, false, false, none);
   return ray;
 }
 

@@ -36,7 +36,7 @@ struct PrescriptionOptions {
   std::vector<std::string> prism;
   std::string material, design, side, outline;
   std::string front = "spherical", toric = "tyre", prism_by = "tilt", segment = "ft28", contact = "soft",
-              progressive_surface = "eye-side";
+              progressive_surface = "eye_side";
   bool thinning = false, as_worn = false, json = false;
   std::string output = "lens.json";
 };
@@ -50,7 +50,7 @@ std::vector<std::string> words(const std::map<std::string, Enum>& names) {
   return result;
 }
 
-const std::map<std::string, lenses::LensDesign> kDesigns{{"single-vision", lenses::LensDesign::single_vision},
+const std::map<std::string, lenses::LensDesign> kDesigns{{"single_vision", lenses::LensDesign::single_vision},
                                                          {"bifocal", lenses::LensDesign::bifocal},
                                                          {"progressive", lenses::LensDesign::progressive},
                                                          {"contact", lenses::LensDesign::contact}};
@@ -66,7 +66,7 @@ const std::map<std::string, lenses::SegmentShape> kSegments{{"ft28", lenses::Seg
 const std::map<std::string, lenses::ContactKind> kContacts{{"soft", lenses::ContactKind::soft},
                                                            {"rigid", lenses::ContactKind::rigid}};
 const std::map<std::string, lenses::ProgressiveConfig::Face> kFaces{
-    {"eye-side", lenses::ProgressiveConfig::Face::eye_side}, {"front", lenses::ProgressiveConfig::Face::front}};
+    {"eye_side", lenses::ProgressiveConfig::Face::eye_side}, {"front", lenses::ProgressiveConfig::Face::front}};
 const std::map<std::string, lenses::Side> kSides{{"right", lenses::Side::right}, {"left", lenses::Side::left}};
 
 // The option that a field of the request comes from, as lens files name the field.
@@ -238,7 +238,7 @@ void add_order_options(CLI::App& command, PrescriptionOptions& o) {
       ->allow_extra_args(false);
   command.add_option("--side", o.side, "Eye: right or left; in, out and insets need it (else right)")
       ->check(CLI::IsMember(words(kSides)));
-  command.add_option("--design", o.design, "single-vision, bifocal, progressive, contact (by the addition)")
+  command.add_option("--design", o.design, "single_vision, bifocal, progressive, contact (by the addition)")
       ->check(CLI::IsMember(words(kDesigns)));
   command.add_option("--material", o.material, "Material by its trade name (CR-39)")->check(CLI::IsMember(materials));
   command.add_option("--index", o.index, "Index of refraction, instead of a material")->excludes("--material");
@@ -263,7 +263,7 @@ void add_form_options(CLI::App& command, PrescriptionOptions& o) {
   command.add_option("--segment-top", o.segment_top, "Bifocal: height of the segment's top, mm (-5)");
   command.add_option("--inset", o.inset, "Near point towards the nose, mm (2.5)");
   command.add_option("--corridor", o.corridor, "Progressive: fitting cross to near point, mm (14)");
-  command.add_option("--progressive-surface", o.progressive_surface, "eye-side or front")
+  command.add_option("--progressive-surface", o.progressive_surface, "eye_side or front")
       ->check(CLI::IsMember(words(kFaces)))
       ->capture_default_str();
   command.add_option("--contact", o.contact, "soft or rigid")

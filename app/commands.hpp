@@ -17,6 +17,11 @@ using Action = std::function<int()>;
 
 // The commands of `lens`, each in a file of its own.
 [[nodiscard]] Action add_lens_from_prescription_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_from_sdf_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_to_sdf_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_from_oma_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_to_oma_command(CLI::App& lens);
+[[nodiscard]] Action add_lens_check_command(CLI::App& lens);
 [[nodiscard]] Action add_lens_progressive_command(CLI::App& lens);
 
 }  // namespace app

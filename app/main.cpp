@@ -59,6 +59,11 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   if (family && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     return "COMMAND: is missing; one is needed" + help;
   }
+  // "FILE is required"
+  if (const std::size_t required = message.find(" is required");
+      required != std::string::npos && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+    return message.substr(0, required) + ": is missing; " + command + " needs it" + help;
+  }
   // "Could not convert: --fov = abc"
   if (const std::size_t equals = message.find(" = ");
       dynamic_cast<const CLI::ConversionError*>(&error) != nullptr && equals != std::string::npos) {

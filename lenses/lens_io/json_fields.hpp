@@ -47,6 +47,7 @@ class Field {
       : value_(&value), source_(&source), path_(std::move(path)) {}
 
   [[nodiscard]] const nlohmann::json& value() const { return *value_; }
+  [[nodiscard]] const std::string& file() const { return source_->file; }
   [[noreturn]] void fail(const std::string& reason) const;
   // The reason is what is wrong with the value at hand, which is named, and what it must be.
   [[noreturn]] void fail_type(const std::string& expected) const;

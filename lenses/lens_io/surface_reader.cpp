@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lenses/lens_io/bspline_reader.hpp"
+#include "lenses/lens_io/file_surface_reader.hpp"
 #include "lenses/lens_io/placement_reader.hpp"
 #include "lenses/lens_io/polygon_reader.hpp"
 #include "lenses/lens_io/units.hpp"
@@ -17,9 +18,10 @@ constexpr std::size_t kMostEvenCoefficients = 8;
 
 constexpr std::size_t kMostBoundaryPoints = 512;
 
-constexpr const char* kBasicTypes = "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\"";
+constexpr const char* kBasicTypes =
+    "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\" \"file\"";
 constexpr const char* kTypes =
-    "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\" \"segment\"";
+    "one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\" \"file\" \"segment\"";
 
 double read_curvature(const Field& surface, std::string_view key) {
   const std::string expected =
@@ -83,7 +85,7 @@ BasicSurface read_basic_surface(const Field& surface, const char* types) {
   if (name == "torus") return read_torus(surface);
   if (name == "bspline") return read_bspline_height_field(surface);
   if (name == "bspline_surface") return read_bspline_surface(surface);
-  if (name == "file") type.fail("\"file\" surfaces are not read in this version; must be " + std::string(types));
+  if (name == "file") return read_file_surface(surface);
   type.fail_type(types);
 }
 

@@ -15,7 +15,7 @@ template <class Parse>
 void read_write_read(Parse parse, std::string_view text) {
   const auto read = [&]() -> std::optional<decltype(parse(text, std::string()))> {
     try {
-      return parse(text, "fuzz.json");
+      return parse(text, "/nonexistent/fuzz.json");  // whose folder holds no file that a surface could name
     } catch (const tracking::InputError&) {
       return std::nullopt;
     }
@@ -27,7 +27,7 @@ void read_line(std::string_view line) {
   // A request may name any file of this machine, a device among them.
   if (line.find("lens_file") != std::string_view::npos) return;
   try {
-    (void)lenses::parse_trace_line(line, "fuzz.jsonl", 1, "/nonexistent");
+    (void)lenses::parse_trace_line(line, "/nonexistent/fuzz.jsonl", 1, "/nonexistent");
   } catch (const tracking::InputError& error) {
     (void)lenses::format_trace_error(lenses::trace_line_id(line), error.what());
   }

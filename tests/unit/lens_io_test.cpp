@@ -125,7 +125,7 @@ TEST(LensReader, NamesTheFieldOfEverySurfaceError) {
       {
           {"/front/type", "-", "front.type", "is missing"},
           {"/front/type", "\"Sphere\"", "front.type", "one of \"plane\" \"sphere\" \"conic\" \"torus\""},
-          {"/front/type", "\"file\"", "front.type", "not read in this version"},
+          {"/front/type", "\"file\"", "front.radius_mm", "allowed: type, path, rows, side, surface, smoothing_um"},
           {"/front/type", "\"segment\"", "front.radius_mm", "allowed: type, base, segment, boundary_mm"},
           {"/front/type", "\"plane\"", "front.radius_mm",
            "is an unknown key; allowed: type, decentration_mm, slope, height_mm"},
@@ -161,7 +161,7 @@ TEST(LensReader, NamesTheFieldOfEverySegmentError) {
           {"/back/base", "3", "back.base", "is 3; must be an object"},
           {"/back/base/radius_mm", "0", "back.base.radius_mm", "at least 0.001"},
           {"/back/base/slope", "[0, 0]", "back.base.slope", "is not allowed on a base"},
-          {"/back/base", R"({"type": "file"})", "back.base.type", "not read in this version"},
+          {"/back/base", R"({"type": "file"})", "back.base.path", "is missing"},
           {"/back/segment/type", "\"segment\"", "back.segment.type",
            "is \"segment\"; must be one of \"plane\" \"sphere\" \"conic\" \"torus\" \"bspline\" \"bspline_surface\""},
           {"/back/segment/radius", "1", "back.segment.radius", "is an unknown key"},

@@ -40,7 +40,7 @@ void expect_same(const json& a, const json& b, const std::string& path) {
 
 TEST(Writers, ReadBackTheSame) {
   for (const json& back : {json::parse(kSphere), json::parse(kTorus), json::parse(kConic), bspline(), bspline_surface(),
-                           segment_surface(), json{{"type", "plane"}}}) {
+                           segment_surface(), json{{"type", "file"}, {"path", "x.sdf"}}, json{{"type", "plane"}}}) {
     json wanted = lens_with_back(back);
     wanted.erase("name");
     wanted.erase("_maker");
@@ -160,8 +160,9 @@ TEST(Schemas, NameTheKeysThatReadersAllow) {
   std::set<std::string> headset = schema("headset", "");
   headset.erase("name");
   EXPECT_EQ(allowed_keys(kHeadset, unknown), headset);
-  for (const json& surface : {json::parse(kSphere), json::parse(kTorus), json::parse(kConic), bspline(),
-                              bspline_surface(), segment_surface(), json{{"type", "plane"}}}) {
+  for (const json& surface :
+       {json::parse(kSphere), json::parse(kTorus), json::parse(kConic), bspline(), bspline_surface(), segment_surface(),
+        json{{"type", "file"}, {"path", "x.sdf"}}, json{{"type", "plane"}}}) {
     const std::string type = surface.at("type");
     EXPECT_EQ(allowed_keys(kLens, in("/back", lens_with_back(surface))), schema("lens", "/$defs/" + type)) << type;
   }

@@ -111,7 +111,7 @@ TEST_F(LensFromPrescription, RefusesWhatIsNoOrder) {
   refused({"--cylinder", "-1"}, "--axis", "is missing");
   refused({"--cylinder", "-1", "--axis", "181"}, "--axis", "from 0 to 180");
   refused({"--cylinder", "-1", "--axis", "nan"}, "--axis", "from 0 to 180");
-  refused({"--add", "2", "--design", "single-vision"}, "--add", "bifocal or progressive");
+  refused({"--add", "2", "--design", "single_vision"}, "--add", "bifocal or progressive");
   refused({"--add", "-1"}, "--add", "from 0 to 6 D");
   for (const std::string prism :
        {"2", "2@", "@up", "x@up", "2@left", "2@up@down", "2@361", "2@-1", "nan@up", "2@nan"}) {

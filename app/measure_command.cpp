@@ -12,6 +12,7 @@
 #include "app/measure/measure_pictures.hpp"
 #include "app/measure/measure_report.hpp"
 #include "app/option_values.hpp"
+#include "app/prism_option.hpp"
 #include "app/report/output_folder.hpp"
 #include "lenses/lens_io/lens_io.hpp"
 #include "render/image/png.hpp"
@@ -39,6 +40,7 @@ struct Subject {
   std::string source;  // as a report names it
   std::string file, field;
   lenses::Lens lens;
+  std::optional<lenses::Lens> other;  // of the pair
 };
 
 lenses::Side side_of(const MeasureOptions& options) {
@@ -50,11 +52,12 @@ Subject read_subject(const MeasureOptions& options) {
     throw InputError("--lens", "", "is missing; a lens file, or a pair by --spectacles, is needed");
   }
   if (!options.lens.empty()) {
-    return {options.lens, options.lens, "", lenses::read_lens(options.lens)};
+    return {options.lens, options.lens, "", lenses::read_lens(options.lens), std::nullopt};
   }
   const lenses::Spectacles pair = lenses::read_spectacles(options.spectacles);
-  return {options.spectacles + ", " + options.side, options.spectacles, options.side,
-          pair.lens[static_cast<std::size_t>(side_of(options))]};
+  const auto side = static_cast<std::size_t>(side_of(options));
+  return {options.spectacles + ", " + options.side, options.spectacles, options.side, pair.lens[side],
+          pair.lens[1 - side]};
 }
 
 std::optional<lenses::Order> order_by_hand(const MeasureOptions& options) {
@@ -74,11 +77,7 @@ std::optional<lenses::Order> order_by_hand(const MeasureOptions& options) {
     throw InputError("--axis", "", "is missing; a cylinder needs its axis, 0 to 180 degrees (TABO)");
   }
   for (const std::string& text : options.prism) {
-    const std::vector<double> prism =
-        numbers_of("--prism", text, 2, "MAGNITUDE,BASE in pd and degrees, such as 1.5,180");
-    check_range("--prism", prism[0], 0.0, 40.0, "pd");
-    check_range("--prism", prism[1], 0.0, 360.0, "degrees");
-    order.ordered.prism.push_back({prism[0], prism[1] * kRadians});
+    order.ordered.prism.push_back(prism_of("--prism", text, side_of(options)));
   }
   return order;
 }
@@ -111,11 +110,9 @@ lenses::Progress progress_of(const std::string& what) {
   return [what](double done) { std::fprintf(stderr, "\r%s %3.0f %% ", what.c_str(), 100.0 * done); };
 }
 
-void write_report(const std::filesystem::path& folder, const MeasureOptions& options, const MeasureReport& report) {
+void write_report(const std::filesystem::path& folder, const MeasureOptions& options, const MeasureReport& report,
+                  const lenses::Eye& eye) {
   const auto points = static_cast<std::size_t>(options.grid);
-  const lenses::Eye eye = options.wearer.empty()
-                              ? lenses::Eye{}
-                              : lenses::read_wearer(options.wearer).eye[static_cast<std::size_t>(report.side)];
   const lenses::LensMap lens_map =
       lenses::lens_map(report.lens, lenses::Lensmeter(report.lens), points, progress_of("over the lens"));
   const lenses::WornMap worn_map =
@@ -147,6 +144,9 @@ int measure(const MeasureOptions& options) {
   const lenses::ToleranceStandard& standard = standard_of(options.standard);
   const std::optional<lenses::Order> by_hand = order_by_hand(options);
   Subject subject = read_subject(options);
+  const lenses::Eye eye = options.wearer.empty()
+                              ? lenses::Eye{}
+                              : lenses::read_wearer(options.wearer).eye[static_cast<std::size_t>(side_of(options))];
   if (by_hand) {
     subject.lens.order = by_hand;
   }
@@ -156,9 +156,9 @@ int measure(const MeasureOptions& options) {
     const MeasureReport report =
         measure_lens(subject.source, subject.lens, side_of(options),
                      options.form == "plus" ? lenses::CylinderForm::plus : lenses::CylinderForm::minus,
-                     class_of(options, subject.lens), standard);
+                     class_of(options, subject.lens), standard, by_hand ? std::nullopt : subject.other);
     if (!folder.empty()) {
-      write_report(folder, options, report);
+      write_report(folder, options, report, eye);
     }
     std::cout << (options.json ? measure_json(report) : measure_table(report));
   } catch (const std::invalid_argument& error) {
@@ -176,7 +176,8 @@ void add_order_options(CLI::App& command, MeasureOptions& options) {
   command.add_option("--cylinder", options.cylinder, "Ordered cylinder, D, either sign");
   command.add_option("--axis", options.axis, "Its axis, TABO degrees");
   command.add_option("--add", options.add, "Ordered addition, D");
-  command.add_option("--prism", options.prism, "Ordered prism, MAGNITUDE,BASE: pd and TABO degrees; may be repeated");
+  command.add_option("--prism", options.prism,
+                     "Ordered prism, M@B: prism dioptres and base (0-360 TABO, up, down, in, out); may be repeated");
 }
 
 }  // namespace

@@ -113,6 +113,11 @@ std::filesystem::path built_in_scene() {
                    "vergence_assets, or name a .gltf or .glb file");
 }
 
+std::filesystem::path traversal_file() {
+  const std::filesystem::path pipelines = pipeline_cache_file();
+  return pipelines.empty() ? pipelines : pipelines.parent_path() / "traversal.txt";
+}
+
 std::filesystem::path pipeline_cache_file() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
     return std::filesystem::path(cache) / "vergence" / "pipelines.bin";

@@ -28,6 +28,9 @@ void check_range(const std::string& option, double value, double lo, double hi, 
 // The built-in scene, beside the program in the build or in an installation.
 [[nodiscard]] std::filesystem::path built_in_scene();
 
+// Where the renderer keeps which traversal is faster; empty where there is no place for it.
+[[nodiscard]] std::filesystem::path traversal_file();
+
 // Where compiled pipelines are kept between runs; empty where there is no place for them.
 [[nodiscard]] std::filesystem::path pipeline_cache_file();
 

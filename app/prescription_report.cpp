@@ -90,8 +90,9 @@ std::string to_table(const PrescriptionReport& report) {
   out << report.output << ": index " << fixed(d.lens.index, 3) << ", Abbe number " << fixed(d.lens.abbe, 0) << "\n\n"
       << "            sphere D  cylinder   axis    add   prism@base\n"
       << power_row("ordered", d.lens.order->ordered) << power_row("compensated", d.verification)
-      << power_row("as worn", d.worn) << "\nfront       " << std::visit(SurfaceWords{}, d.lens.front)
-      << "\nback        " << std::visit(SurfaceWords{}, d.lens.back) << "\n";
+      << (d.worn ? power_row("as worn", *d.worn) : "as worn     no light passes in this fit\n") << "\nfront       "
+      << std::visit(SurfaceWords{}, d.lens.front) << "\nback        " << std::visit(SurfaceWords{}, d.lens.back)
+      << "\n";
   if (d.base_curve > 0.0) {
     out << "base curve  " << fixed(d.base_curve, 2) << " D\n";
   }
@@ -111,7 +112,7 @@ std::string to_json(const PrescriptionReport& report) {
       {"output", report.output},
       {"ordered", power_json(d.lens.order->ordered)},
       {"compensated", power_json(d.verification)},
-      {"as_worn", power_json(d.worn)},
+      {"as_worn", d.worn ? power_json(*d.worn) : ordered_json(nullptr)},
       {"base_curve_D", d.base_curve > 0.0 ? ordered_json(d.base_curve) : ordered_json(nullptr)},
       {"index", d.lens.index},
       {"centre_thickness_mm", d.lens.centre_thickness * kMm},

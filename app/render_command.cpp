@@ -12,6 +12,7 @@
 #include "app/picture.hpp"
 #include "app/render_report.hpp"
 #include "app/render_setup.hpp"
+#include "app/scene_options.hpp"
 #include "render/image/colour_bar.hpp"
 #include "render/image/exr.hpp"
 #include "render/image/output_error.hpp"
@@ -27,12 +28,8 @@ using tracking::InputError;
 
 struct RenderOptions {
   SceneOptions scene;
+  PictureOptions picture;
   std::string mode = "adof";
-  std::string accuracy = "standard";
-  double threshold_px = 0.5;
-  bool all_effects = false;
-  std::string output_space = "display";
-  double exposure = 0.0;
   std::optional<int> samples;
   std::optional<double> target_error;
   std::string range;
@@ -82,8 +79,7 @@ void check_options(const RenderOptions& options) {
   if (options.channels == "all" && !is_exr(options.output)) {
     throw InputError("--channels", "", "all needs an .exr --output; a .png holds the picture only");
   }
-  check_range("--threshold", options.threshold_px, 0.0, 1000.0, "px");
-  check_range("--exposure", options.exposure, -32.0, 32.0, "EV");
+  check_picture_options(options.picture);
   if (options.samples) {
     check_range("--samples", *options.samples, 1, kMostSamples, "");
   }
@@ -113,8 +109,8 @@ render::FrameConfig frame_config(const RenderOptions& options, const RenderSetup
   config.width = setup.size[0];
   config.height = setup.size[1];
   config.mode = mode_of(options.mode);
-  config.threshold_px = options.all_effects ? 0.0 : options.threshold_px;
-  config.exposure = options.exposure;
+  config.threshold_px = options.picture.threshold();
+  config.exposure = options.picture.exposure;
   config.samples = options.samples.value_or(options.target_error ? kSamplesForTarget : kDefaultSamples);
   config.target_error = options.target_error;
   config.seed = options.seed;
@@ -151,16 +147,13 @@ render::Progress progress_bar(bool wanted) {
   return [](int done, int of) { std::fprintf(stderr, "\r%d of at most %d samples", done, of); };
 }
 
-int render_picture(const RenderOptions& options) {
-  check_options(options);
-  const std::string scene_file = options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
-  const render::Scene scene = render::read_gltf(scene_file);
-  const RenderSetup setup = make_render_setup(options.scene, scene);
-  const render::FrameConfig config = frame_config(options, setup);
-  render::vk::Device device = open_device(options.device);
-  render::Renderer renderer(device, scene);
-  render::RenderedFrame frame;
+struct Drawn {
+  render::RenderedFrame frame;  // the last
   std::vector<std::vector<render::vk::StageTime>> runs;
+};
+
+Drawn draw_frames(const RenderOptions& options, const RenderSetup& setup, const render::FrameConfig& config,
+                  render::Renderer& renderer, StartUp& start_up) {
   const auto draw = [&](const render::Progress& progress) {
     try {
       return renderer.render(setup.lenses, setup.views, config, progress);
@@ -171,35 +164,64 @@ int render_picture(const RenderOptions& options) {
   if (options.repeat > 1) {
     // The first frame also pays for compiling; it is not timed.
     static_cast<void>(draw({}));
+    start_up.mark("first frame");
   }
+  Drawn drawn;
   for (int i = 0; i < options.repeat; ++i) {
     const render::Progress progress = progress_bar(config.mode == Mode::dof);
-    frame = draw(progress);
+    drawn.frame = draw(progress);
+    if (options.repeat == 1) {
+      start_up.mark("first frame");
+    }
     if (progress) {
       std::fputc('\n', stderr);
     }
-    runs.push_back(frame.stages);
+    drawn.runs.push_back(drawn.frame.stages);
   }
-  close_device(device);
-  const PictureLayout layout{config.width, config.height, setup.pairs.size(), setup.sides.size()};
-  write_picture(options, layout, frame, config.mode);
+  return drawn;
+}
 
+RenderReport report_of(const RenderOptions& options, const RenderSetup& setup, const render::FrameConfig& config,
+                       const Drawn& drawn) {
   RenderReport report;
   report.output = options.output;
-  report.device = device.name();
   report.mode = options.mode;
   report.width = config.width;
   report.height = config.height;
-  report.triangles = scene.triangles.size();
   report.views = setup.views.size();
-  report.samples = frame.samples;
-  report.error_estimate = frame.error_estimate;
+  report.samples = drawn.frame.samples;
+  report.error_estimate = drawn.frame.error_estimate;
   report.is_map = render::is_map(config.mode);
-  report.range_low = frame.range.low;
-  report.range_high = frame.range.high;
+  report.range_low = drawn.frame.range.low;
+  report.range_high = drawn.frame.range.high;
   report.range_unit = map_unit(config.mode);
   report.sight = sight_rows(setup);
-  report.stages = stage_rows(runs);
+  report.stages = stage_rows(drawn.runs);
+  report.peak_memory_mib = peak_memory_mib();
+  return report;
+}
+
+int render_picture(const RenderOptions& options) {
+  StartUp start_up;
+  check_options(options);
+  const std::string scene_file = options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
+  const render::Scene scene = render::read_gltf(scene_file);
+  start_up.mark("scene");
+  const RenderSetup setup = make_render_setup(options.scene, scene);
+  start_up.mark("fixation");
+  const render::FrameConfig config = frame_config(options, setup);
+  render::vk::Device device = open_device(options.device);
+  start_up.mark("device");
+  render::Renderer renderer(device, scene, {.traversal_file = traversal_file()});
+  start_up.mark("trees and textures");
+  const Drawn drawn = draw_frames(options, setup, config, renderer, start_up);
+  close_device(device);
+  const PictureLayout layout{config.width, config.height, setup.pairs.size(), setup.sides.size()};
+  write_picture(options, layout, drawn.frame, config.mode);
+  RenderReport report = report_of(options, setup, config, drawn);
+  report.device = device.name();
+  report.triangles = scene.triangles.size();
+  report.start_up = start_up.parts();
   if (!options.timings.empty()) {
     append_timings(options.timings, report);
   }
@@ -210,29 +232,12 @@ int render_picture(const RenderOptions& options) {
   return 0;
 }
 
-void add_scene_options(CLI::App& command, SceneOptions& scene) {
-  command.add_option("--scene", scene.scene, "FILE.gltf or FILE.glb [the built-in reading room]");
-  command.add_option("--wearer", scene.wearer, "Wearer file [35 years, emmetropic]");
-  command.add_option("--spectacles", scene.spectacles, "Spectacles file, or none")->capture_default_str();
-  command.add_option("--compare", scene.compare, "A second pair: A left, B right of a divider in each eye");
-  command
-      .add_option("--viewing", scene.viewing,
-                  "fixed: all rays from the primary-gaze pupil; scanning: the eye turns to each pixel; gaze: one\n"
-                  "pupil turned to the gaze, one accommodation state")
-      ->check(CLI::IsMember({"fixed", "scanning", "gaze"}))
-      ->capture_default_str();
-  command.add_option("--headset", scene.headset, "Headset file: pixels lie on its virtual image, light sets the pupil");
+// How many eyes and pixels.
+void add_view_options(CLI::App& command, SceneOptions& scene) {
   command.add_option("--eye", scene.eye, "left, right, or both (left | right side by side)")
       ->check(CLI::IsMember({"left", "right", "both"}))
       ->capture_default_str();
   command.add_option("--size", scene.size, "WxH in pixels, of each eye's picture")->capture_default_str();
-  command.add_option("--fov", scene.fov_deg, "Vertical field of view, degrees")->capture_default_str();
-  auto* gaze = command.add_option("--gaze", scene.gaze, "YAW,PITCH in degrees, + right, + up, up to 45 each")
-                   ->capture_default_str();
-  command.add_option("--look-at", scene.look_at, "A target of the scene by name; the picture is centred on it")
-      ->excludes(gaze);
-  command.add_option("--pose", scene.pose,
-                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils [the scene's camera]");
 }
 
 }  // namespace
@@ -246,24 +251,11 @@ Action add_render_command(CLI::App& program) {
       "    --spectacles assets/spectacles/presbyopia_bspline_sphere.json --look-at near_card --output near.png\n"
       "The picture is centred on the gaze; head and lens stay where they are.");
   add_scene_options(*command, options->scene);
+  add_view_options(*command, options->scene);
   command->add_option("--mode", options->mode, "What the picture shows")
       ->check(CLI::IsMember(kModes))
       ->capture_default_str();
-  command->add_option("--accuracy", options->accuracy, "Rung of the accuracy ladder")
-      ->check(CLI::IsMember({"standard"}))
-      ->capture_default_str();
-  command->add_option("--threshold", options->threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
-      ->capture_default_str();
-  command->add_flag("--all-effects", options->all_effects, "Draw every blur, however small");
-  command
-      ->add_option("--output-space", options->output_space,
-                   "display or retina; the effects drawn so far look the same in both")
-      ->check(CLI::IsMember({"display", "retina"}))
-      ->capture_default_str();
-  command
-      ->add_option("--exposure", options->exposure,
-                   "EV of a .png, fixed for the whole run; an .exr holds radiance as it is")
-      ->capture_default_str();
+  add_picture_options(*command, options->picture);
   auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64]");
   command
       ->add_option("--target-error", options->target_error,
@@ -282,7 +274,8 @@ Action add_render_command(CLI::App& program) {
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
   command->add_option("--repeat", options->repeat, "Render so often after a first, untimed frame; report the median")
       ->capture_default_str();
-  command->add_option("--timings", options->timings, "CSV file that a row a stage is added to");
+  command->add_option("--timings", options->timings,
+                      "CSV file that a row a stage is added to, and one a part of the start-up");
   command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();
   command->add_flag("--json", options->json, "Print the numbers as JSON");
   return [options] { return render_picture(*options); };

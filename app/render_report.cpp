@@ -148,6 +148,11 @@ std::string to_table(const RenderReport& report) {
     out << std::left << std::setw(8) << row.stage << std::right << fixed_number(row.median_ms, 2, 12)
         << fixed_number(row.min_ms, 2, 11) << fixed_number(row.max_ms, 2, 11) << "\n";
   }
+  out << "\nstart-up ms:";
+  for (const auto& [name, ms] : report.start_up) {
+    out << (name == report.start_up.front().first ? " " : ", ") << name << " " << fixed_number(ms, 0, 0);
+  }
+  out << "; peak memory " << fixed_number(report.peak_memory_mib, 0, 0) << " MiB\n";
   return out.str();
 }
 
@@ -180,6 +185,10 @@ std::string to_json(const RenderReport& report) {
     s["blur_arcmin"] = {row.blur_major_arcmin, row.blur_minor_arcmin};
     j["sight"].push_back(s);
   }
+  for (const auto& [name, ms] : report.start_up) {
+    j["start_up_ms"][name] = ms;
+  }
+  j["peak_memory_MiB"] = report.peak_memory_mib;
   for (const StageRow& row : report.stages) {
     j["stages_ms"][row.stage] = {{"median", row.median_ms}, {"min", row.min_ms}, {"max", row.max_ms}};
   }
@@ -193,8 +202,13 @@ void check_timings(const std::string& file) {
 
 void append_timings(const std::string& file, const RenderReport& report) {
   std::string text = read_timings(file);
+  std::vector<StageRow> stages;
+  for (const auto& [name, ms] : report.start_up) {
+    stages.push_back({"start: " + name, ms, ms, ms});
+  }
+  stages.insert(stages.end(), report.stages.begin(), report.stages.end());
   std::ostringstream rows;
-  for (const StageRow& row : report.stages) {
+  for (const StageRow& row : stages) {
     rows << quoted(report.output) << ',' << report.mode << ',' << report.width << ',' << report.height << ','
          << report.views << ',' << report.triangles << ',' << row.stage << ',' << row.median_ms << ',' << row.min_ms
          << ',' << row.max_ms << ',' << quoted(report.device) << '\n';

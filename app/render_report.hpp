@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/render_setup.hpp"
+#include "app/start_up.hpp"
 #include "render/vk/device.hpp"
 
 namespace app {
@@ -43,6 +44,8 @@ struct RenderReport {
   std::string range_unit;
   std::vector<SightRow> sight;
   std::vector<StageRow> stages;
+  StartUp::Parts start_up;
+  double peak_memory_mib = 0.0;
 };
 
 [[nodiscard]] std::string to_table(const RenderReport& report);
@@ -51,7 +54,8 @@ struct RenderReport {
 // Throws tracking::InputError if the file holds anything but such a table.
 void check_timings(const std::string& file);
 
-// Adds this picture's stages to a CSV file (made with a header if absent), all or nothing.
+// Adds this picture's stages to a CSV file (made with a header if absent), all or nothing; the parts of the start-up as
+// stages named "start: ...".
 void append_timings(const std::string& file, const RenderReport& report);
 
 }  // namespace app

@@ -60,6 +60,28 @@ void round_surface(To& to, const From& from) {
   to.parts = from.parts;
 }
 
+// Whether the surfaces may cross within the lens's cylinder: no, where samples of the gap between them leave no room
+// for it. 1.5: how much steeper the gap may be between samples than at them.
+bool may_cross(const f64::LensData& lens, const std::vector<glm::dvec4>& table) {
+  constexpr int kSamples = 32;                                       // along a half diameter
+  if (lens.back.parts.z > 0 || lens.front.parts.z > 0) return true;  // the walls of segments
+  const double step = lens.glass.z / kSamples;
+  double least = 1e30;
+  double steepest = 0.0;
+  for (int i = -kSamples - 1; i <= kSamples + 1; ++i) {
+    for (int j = -kSamples - 1; j <= kSamples + 1; ++j) {
+      const glm::dvec2 p(i * step, j * step);
+      if (glm::length(p) > lens.glass.z + 1.5 * step) continue;
+      const f64::SurfacePoint back = f64::surface_point(f64::Table{table}, lens.back, p);
+      const f64::SurfacePoint front = f64::surface_point(f64::Table{table}, lens.front, p);
+      if (!back.inside || !front.inside) return true;
+      least = std::min(least, lens.glass.y + back.z - front.z);
+      steepest = std::max(steepest, glm::length(back.gradient - front.gradient));
+    }
+  }
+  return !(least > 1.5 * steepest * step);
+}
+
 }  // namespace
 
 std::size_t append_lens(LensModel& model, const Lens* lens, Side side, double entrance_pupil_depth) {
@@ -74,6 +96,7 @@ std::size_t append_lens(LensModel& model, const Lens* lens, Side side, double en
     data.mount.x = lens->attached_to == Lens::AttachedTo::eye ? 1 : 0;
     data.back = make_surface(lens->back, lens->back_placement, semi_diameter, model.table);
     data.front = make_surface(lens->front, lens->front_placement, semi_diameter, model.table);
+    data.mount.y = may_cross(data, model.table) ? 1 : 0;
   }
   model.lens.push_back(data);
   return model.lens.size() - 1;

@@ -60,6 +60,17 @@ void set_base_sphere(f64::SurfaceData& s, const std::vector<glm::dvec4>& table) 
   s.frame = glm::dvec4(1.0, 0.0, p.z - 0.5 * dot(p.gradient, at), 0.5 * (p.hessian.x + p.hessian.z));
 }
 
+// Rounding of knots written in decimal; beyond it a point's place within its cell would be off.
+constexpr double kEven = 1e-9;
+
+bool is_even(const Cells& cells) {
+  const double size = (cells.breaks.back() - cells.breaks.front()) / static_cast<double>(cells.count());
+  for (std::size_t i = 0; i < cells.count(); ++i) {
+    if (std::abs(cells.breaks[i] - cells.breaks.front() - static_cast<double>(i) * size) > kEven * size) return false;
+  }
+  return true;
+}
+
 f64::SurfaceData make_height_field(const BsplineHeightField& spline, std::vector<glm::dvec4>& table) {
   const Cells x = cells_of(spline.knots_x);
   const Cells y = cells_of(spline.knots_y);
@@ -74,6 +85,11 @@ f64::SurfaceData make_height_field(const BsplineHeightField& spline, std::vector
   const std::size_t start = table.size();
   table.resize(start + 4 * x.count() * y.count());
   append_power_basis(spline.knots_x, spline.knots_y, spline.control_z, 4, std::span(table).subspan(start));
+  if (is_even(x) && is_even(y)) {
+    s.kind.x = f64::kEvenBspline;
+    s.shape = glm::dvec4(s.domain.x, static_cast<double>(x.count()) / (s.domain.y - s.domain.x), s.domain.z,
+                         static_cast<double>(y.count()) / (s.domain.w - s.domain.z));
+  }
   set_base_sphere(s, table);
   return s;
 }

@@ -12,20 +12,31 @@ constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32;  // see shaders/fr
 
 // The buffers of one size of frame.
 struct FrameBuffers {
-  FrameBuffers(const vk::Device& device, std::size_t pixel_count, bool wavefront, bool sums)
-      : count(pixel_count),
-        has_wavefront(wavefront),
-        has_sums(sums),
-        pixels(device, count * kPixelBytes, vk::Memory::device),
-        keys(device, count * 8, vk::Memory::device),
-        wavefronts(device, wavefront ? count * kWavefrontBytes : 16, vk::Memory::device),
-        sums(device, sums ? count * 16 : 16, vk::Memory::device),
-        radiance(device, count * 8, vk::Memory::device),
-        display(device, count * 4, vk::Memory::device) {}
+  struct Size {
+    std::size_t pixels = 0;  // of all views
+    bool wavefront = false, sums = false;
+    bool hits = false;  // what chief rays meet is found by a kernel of its own
 
-  std::size_t count;
-  bool has_wavefront, has_sums;
-  vk::Buffer pixels, keys, wavefronts, sums, radiance, display;
+    [[nodiscard]] bool holds(const Size& other) const {
+      return pixels == other.pixels && wavefront >= other.wavefront && sums >= other.sums && hits >= other.hits;
+    }
+  };
+
+  FrameBuffers(const vk::Device& device, const Size& s)
+      : size(s),
+        pixels(device, s.pixels * kPixelBytes, vk::Memory::device),
+        keys(device, s.pixels * 8, vk::Memory::device),
+        wavefronts(device, s.wavefront ? s.pixels * kWavefrontBytes : 16, vk::Memory::device),
+        sums(device, s.sums ? s.pixels * 16 : 16, vk::Memory::device),
+        ray_origins(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
+        ray_directions(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
+        hits(device, s.hits ? s.pixels * 4 : 4, vk::Memory::device),
+        list(device, (s.pixels + 4) * 4, vk::Memory::device),
+        radiance(device, s.pixels * 8, vk::Memory::device),
+        display(device, s.pixels * 4, vk::Memory::device) {}
+
+  Size size;
+  vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, list, radiance, display;
 };
 
 // View `index` of a frame of config's size.

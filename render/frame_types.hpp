@@ -1,9 +1,12 @@
 // The structures the shaders share with the host (render/shaders/frame.h and view.h), as C++.
 #pragma once
 
+#include <cstdint>
+
 #include "lenses/engine.hpp"
 
 namespace render::gpu {
+using uint = std::uint32_t;
 using glm::ivec4;
 using glm::vec4;
 using lenses::f32::EyeData;

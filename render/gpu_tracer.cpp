@@ -33,6 +33,7 @@ std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
     }
     kinds |= static_cast<std::uint32_t>(lens.back.parts.w);
     kinds |= static_cast<std::uint32_t>(lens.front.parts.w) << 16U;
+    kinds |= lens.mount.y != 0 ? 1U << 31U : 0U;
   }
   return kinds;
 }

@@ -24,8 +24,8 @@ class GpuTracer {
   std::map<std::uint32_t, vk::Kernel> kernels_;  // by surface kinds
 };
 
-// Bit k is set if some lens has a back surface of kind k or with feature k (kPlaced, kSegmented), bit 16 + k a front:
-// the specialisation constant kSurfaceKinds.
+// What the lens code must be compiled for, the specialisation constant kSurfaceKinds: bit k if some lens has a back of
+// kind k (surface.h), bit 16 + k a front, bit 31 if the surfaces of some lens may cross.
 [[nodiscard]] std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses);
 
 }  // namespace render

@@ -1,74 +1,118 @@
 #include "render/kernel_set.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/frame_types.hpp"
 #include "shaders/blur.hpp"
+#include "shaders/blur_encode.hpp"
 #include "shaders/chief.hpp"
+#include "shaders/colour.hpp"
 #include "shaders/dof.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
+#include "shaders/find_edges.hpp"
+#include "shaders/left_out.hpp"
+#include "shaders/rays.hpp"
+#include "shaders/tile.hpp"
+#include "shaders/unsettled.hpp"
 
 namespace render {
 namespace {
 
 using vk::Binding;
 
-// shaders/scene_bindings.glsl, then the stage's own storage buffers.
-std::vector<Binding> scene_and(std::size_t own) {
+// shaders/scene_bindings.glsl, then the stage's own.
+std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding> more = {}) {
   std::vector<Binding> bindings{Binding::texel_rgba32f,  Binding::texel_rgba32ui, Binding::texel_rgba32f,
                                 Binding::texel_rgba32f,  Binding::texel_r32ui,    Binding::uniform_buffer,
-                                Binding::uniform_buffer, Binding::storage_buffer, Binding::storage_buffer,
-                                Binding::storage_buffer};
-  bindings.insert(bindings.end(), own, Binding::storage_buffer);
+                                Binding::uniform_buffer, Binding::texel_rgba32ui, Binding::texel_rgba32ui,
+                                Binding::texel_rgba32ui};
+  bindings.insert(bindings.end(), storage_buffers, Binding::storage_buffer);
+  bindings.insert(bindings.end(), more.begin(), more.end());
   return bindings;
 }
+
+// Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
+enum class Constants { none, lanes_and_features, scene, chief };
 
 struct Recipe {
   const char* name;
   std::span<const std::uint32_t> code;
   std::vector<Binding> bindings;
-  bool traces;      // takes the variant's constants
-  bool wavefronts;  // those about the wavefront among them
+  Constants constants;
 };
 
 Recipe recipe_of(Stage stage) {
+  using enum Binding;
   switch (stage) {
+    case Stage::rays:
+      return {"rays", shaders::rays, scene_and(3), Constants::scene};
+    case Stage::unsettled:
+      return {"unsettled", shaders::unsettled, scene_and(3), Constants::scene};
+    case Stage::tile:
+      return {"tile",
+              shaders::tile,
+              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
+              Constants::lanes_and_features};
+    case Stage::left_out:
+      return {"left_out", shaders::left_out,
+              scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}), Constants::scene};
     case Stage::chief:
-      return {"trace", shaders::chief, scene_and(3), true, true};
+      return {"trace", shaders::chief, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
+    case Stage::find_edges:
+      return {"find_edges", shaders::find_edges, {texel_rgba32ui, texel_rg32ui, storage_buffer}, Constants::none};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(2), true, false};
+      return {"edges", shaders::edges, scene_and(2), Constants::scene};
     case Stage::samples:
-      return {"samples", shaders::dof, scene_and(3), true, false};
+      return {"samples", shaders::dof, scene_and(3), Constants::scene};
     case Stage::blur:
-      return {"blur", shaders::blur, {Binding::texel_rgba32ui, Binding::storage_buffer}, false, false};
+      return {"blur", shaders::blur, {texel_rgba32ui, storage_buffer}, Constants::none};
+    case Stage::blur_encode:
+      return {"blur_encode", shaders::blur_encode, {texel_rgba32ui, storage_buffer}, Constants::none};
     case Stage::encode:
+      return {"encode", shaders::encode, {texel_rg32ui, storage_buffer}, Constants::none};
+    case Stage::colour:
       break;
   }
-  return {"encode", shaders::encode, std::vector<Binding>(3, Binding::storage_buffer), false, false};
+  return {"colour", shaders::colour, {texel_rgba32f, storage_buffer}, Constants::none};
 }
 
 }  // namespace
 
+bool can_trace_tiles(const vk::DeviceLimits& limits) {
+  const std::uint32_t size = limits.subgroup_size;
+  return limits.has_subgroup_reductions && (size == 8 || size == 16 || size == 32 || size == 64);
+}
+
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
   // By constant id, then the stage.
-  std::array<std::uint32_t, 6> key{0, 0, 0, 0, 0, static_cast<std::uint32_t>(stage)};
-  if (recipe.traces) {
+  std::array<std::uint32_t, 7> key{};
+  key.back() = static_cast<std::uint32_t>(stage);
+  std::size_t count = 0;
+  if (recipe.constants == Constants::lanes_and_features) {
+    key[0] = device_.limits().subgroup_size;
+    key[1] = variant.scene_features;
+    count = 2;
+  } else if (recipe.constants != Constants::none) {
     key[0] = variant.surface_kinds;
     key[1] = variant.scene_features;
     key[4] = variant.bare ? 1U : 0U;
+    count = 5;
   }
-  if (recipe.wavefronts) {
+  if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
     key[3] = variant.keep_wavefront ? 1U : 0U;
+    key[5] = variant.found ? 1U : 0U;
+    count = 6;
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {
     return found->second;
   }
-  const auto constants = std::span<const std::uint32_t>(key).first(recipe.traces ? 5 : 0);
+  const auto constants = std::span<const std::uint32_t>(key).first(count);
   return kernels_
       .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData), constants, recipe.name))
       .first->second;

@@ -10,7 +10,20 @@
 
 namespace render {
 
-enum class Stage : std::uint32_t { chief, edges, samples, blur, encode };
+enum class Stage : std::uint32_t {
+  rays,
+  unsettled,
+  tile,
+  left_out,
+  chief,
+  find_edges,
+  edges,
+  samples,
+  blur,
+  blur_encode,
+  encode,
+  colour
+};
 
 // How the kernels that trace are specialised (shaders/chief.comp.glsl); the others ignore it.
 struct TraceVariant {
@@ -18,8 +31,12 @@ struct TraceVariant {
   std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
-  bool bare = false;  // one light, no shadow rays
+  bool bare = false;   // one light, no shadow rays
+  bool found = false;  // what chief rays meet was found by Stage::tile
 };
+
+// Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
+[[nodiscard]] bool can_trace_tiles(const vk::DeviceLimits& limits);
 
 class KernelSet {
  public:
@@ -29,7 +46,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 6>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 7>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

@@ -4,34 +4,21 @@
 #include <cmath>
 
 #include "render/frame_buffers.hpp"
+#include "render/frame_job.hpp"
 #include "render/frame_types.hpp"
-#include "render/gpu_tracer.hpp"
 #include "render/kernel_set.hpp"
 #include "render/map_range.hpp"
+#include "render/traversal_choice.hpp"
 #include "render/vk/commands.hpp"
 
 namespace render {
 namespace {
 
-// Numbers that cross to the shaders.
-static_assert(gpu::kModePinhole == static_cast<int>(Mode::pinhole) && gpu::kModeAdof == static_cast<int>(Mode::adof) &&
-              gpu::kModeDof == static_cast<int>(Mode::dof) && gpu::kModePower == static_cast<int>(Mode::power) &&
-              gpu::kModeAstigmatism == static_cast<int>(Mode::astigmatism) &&
-              gpu::kModeAccommodation == static_cast<int>(Mode::accommodation) &&
-              gpu::kModeBlur == static_cast<int>(Mode::blur));
-
-constexpr std::uint32_t kTile = 8;          // local size of the frame's kernels
 constexpr int kSamplesASubmission = 8;      // dof
 constexpr int kFewestSamplesToStopOn = 16;  // below, the error estimate itself is too rough
-constexpr float kLargestBlur = 512.0F;      // px; beyond it nothing is left to see
-constexpr float kNoBlurDrawn = 1e9F;        // px, as a threshold
 
 std::size_t pixels_of(const FrameConfig& config) {
   return static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
-}
-
-bool keeps_wavefront(const FrameConfig& config) {
-  return is_map(config.mode) || config.mode == Mode::dof || config.keep_wavefront;
 }
 
 double rms_standard_error(const std::vector<glm::vec4>& sums, int samples) {
@@ -55,153 +42,42 @@ void add_times(std::vector<vk::StageTime>& sum, const std::vector<vk::StageTime>
   }
 }
 
-// One frame in the making: its settings on the device and the recording of each stage.
-class FrameJob {
- public:
-  FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
-           const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config)
-      : device_(device),
-        scene_(scene),
-        kernels_(kernels),
-        out_(out),
-        config_(config),
-        table_(filled_buffer(device, lenses::to_float(lenses.table))),
-        views_(filled_buffer(device, view_data(lenses, views))) {
-    std::vector<lenses::f64::LensData> worn;
-    for (const ViewSetup& view : views) {
-      worn.push_back(lenses.lens[view.lens]);
-    }
-    variant_ = {surface_kinds(worn), scene.features, config.mode != Mode::pinhole || config.keep_wavefront,
-                keeps_wavefront(config), config.bare};
-    data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
-    data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
-    // A pinhole picture is the defocused one with nothing left to blur.
-    const float threshold = config.mode == Mode::adof ? static_cast<float>(config.threshold_px) : kNoBlurDrawn;
-    data_.limits = glm::vec4(threshold, kLargestBlur, std::exp2(static_cast<float>(config.exposure)), 0.0F);
-  }
-
-  void set_range(const MapRange& range) {
-    data_.map_range = glm::vec4(static_cast<float>(range.low), static_cast<float>(range.high),
-                                static_cast<float>(map_unit_factor(config_.mode)), 0.0F);
-  }
-
-  void record_trace(vk::Commands& commands) {
-    trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
-    commands.timestamp("trace");
-  }
-
-  void record_edges_and_blur(vk::Commands& commands) {
-    commands.barrier();
-    if (!config_.bare) {
-      trace_with(commands, Stage::edges, {&out_.pixels, &out_.keys});
-      commands.timestamp("edges");
-      commands.barrier();
-    }
-    dispatch(commands, kernels_.get(Stage::blur), {&out_.pixels, &out_.radiance});
-    commands.timestamp("blur");
-  }
-
-  void record_encode(vk::Commands& commands) {
-    commands.barrier();
-    dispatch(commands, kernels_.get(Stage::encode), {&out_.radiance, &out_.wavefronts, &out_.display});
-    commands.timestamp("encode");
-  }
-
-  // Distributed rays until the samples or the target error are reached; results go into `frame`.
-  void take_samples(RenderedFrame& frame, const Progress& progress) {
-    frame.samples = 0;
-    while (frame.samples < config_.samples) {
-      const int batch = std::min(kSamplesASubmission, config_.samples - frame.samples);
-      vk::Commands commands(device_);
-      for (int i = 0; i < batch; ++i) {
-        data_.sampling.x = frame.samples + i;
-        trace_with(commands, Stage::samples, {&out_.wavefronts, &out_.sums, &out_.radiance});
-        commands.barrier();
-      }
-      commands.timestamp("samples");
-      add_times(frame.stages, device_.run(commands));
-      frame.samples += batch;
-      frame.error_estimate = rms_standard_error(out_.sums.read<glm::vec4>(out_.count), frame.samples);
-      if (progress) {
-        progress(frame.samples, config_.samples);
-      }
-      if (config_.target_error && frame.samples >= kFewestSamplesToStopOn &&
-          frame.error_estimate <= *config_.target_error) {
-        break;
-      }
-    }
-  }
-
- private:
-  static std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
-    std::vector<gpu::ViewData> data;
-    for (const ViewSetup& view : views) {
-      data.push_back(make_view_data(view, lenses));
-    }
-    data.resize(gpu::kMostViews);  // a uniform buffer has its full size
-    return data;
-  }
-
-  void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const std::vector<const vk::Buffer*>& buffers) {
-    const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kTile - 1) / kTile; };
-    commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y),
-                      static_cast<std::uint32_t>(data_.size.z));
-  }
-
-  void trace_with(vk::Commands& commands, Stage stage, const std::vector<const vk::Buffer*>& own) {
-    std::vector<const vk::Buffer*> all{
-        &table_, &scene_.bvh_nodes,   &scene_.bvh_triangles, &scene_.shading_triangles, &scene_.texels,
-        &views_, &scene_.environment, &scene_.lights,        &scene_.materials,         &scene_.textures};
-    all.insert(all.end(), own.begin(), own.end());
-    dispatch(commands, kernels_.get(stage, variant_), all);
-  }
-
-  vk::Device& device_;
-  const SceneBuffers& scene_;
-  KernelSet& kernels_;
-  FrameBuffers& out_;
-  const FrameConfig& config_;
-  vk::Buffer table_, views_;
-  TraceVariant variant_;
-  gpu::FrameData data_{};
-};
-
 }  // namespace
 
 struct Renderer::State {
-  State(vk::Device& d, const Scene& scene) : device(d), buffers(d, scene), kernels(d) {}
-
-  FrameBuffers& frame_buffers(std::size_t count, bool wavefront, bool sums) {
-    if (!frame || frame->count != count || (wavefront && !frame->has_wavefront) || (sums && !frame->has_sums)) {
-      frame.reset();  // the old one goes first, so that both never stand side by side
-      frame = std::make_unique<FrameBuffers>(device, count, wavefront, sums);
-    }
-    return *frame;
-  }
+  State(vk::Device& d, const Scene& scene, const RendererConfig& config)
+      : device(d), buffers(d, scene), kernels(d), choice(config) {}
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
   RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
-    FrameBuffers& out =
-        frame_buffers(pixels_of(config) * views.size(), keeps_wavefront(config), config.mode == Mode::dof);
-    FrameJob job(device, buffers, kernels, out, lenses, views, config);
+    const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
+    FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
+                                       .wavefront = keeps_wavefront(config),
+                                       .sums = config.mode == Mode::dof,
+                                       .hits = traversal == Traversal::tile});
+    FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
     job.record_trace(commands);
     if (config.mode == Mode::adof || config.mode == Mode::pinhole) {
-      job.record_edges_and_blur(commands);
+      if (!config.bare) {
+        job.record_edges(commands);
+      }
+      job.record_blur(commands);
     }
     const bool encode_later = config.mode == Mode::dof || (is_map(config.mode) && !config.range);
-    if (!encode_later) {
+    const bool blur_encodes = !is_map(config.mode) && config.mode != Mode::dof && !config.keep_radiance;
+    if (!encode_later && !blur_encodes) {
       job.record_encode(commands);
     }
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
-      job.take_samples(result, progress);
+      take_samples(job, out, config, result, progress);
     } else if (encode_later) {
-      result.range = map_range_of(config.mode, out.wavefronts.read<glm::vec4>(2 * out.count));
+      result.range = map_range_of(config.mode, out.wavefronts.read<glm::vec4>(2 * out.size.pixels));
       job.set_range(result.range);
     }
     if (encode_later) {
@@ -215,13 +91,47 @@ struct Renderer::State {
     return result;
   }
 
+  // Distributed rays until the samples or the target error are reached; results go into `frame`.
+  void take_samples(FrameJob& job, const FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
+                    const Progress& progress) {
+    frame.samples = 0;
+    while (frame.samples < config.samples) {
+      const int batch = std::min(kSamplesASubmission, config.samples - frame.samples);
+      vk::Commands commands(device);
+      for (int i = 0; i < batch; ++i) {
+        job.record_sample(commands, frame.samples + i);
+      }
+      commands.timestamp("samples");
+      add_times(frame.stages, device.run(commands));
+      frame.samples += batch;
+      frame.error_estimate = rms_standard_error(out.sums.read<glm::vec4>(out.size.pixels), frame.samples);
+      if (progress) {
+        progress(frame.samples, config.samples);
+      }
+      if (config.target_error && frame.samples >= kFewestSamplesToStopOn &&
+          frame.error_estimate <= *config.target_error) {
+        break;
+      }
+    }
+  }
+
+  FrameBuffers& frame_buffers(const FrameBuffers::Size& size) {
+    if (!frame || !frame->size.holds(size)) {
+      frame.reset();  // the old one goes first, so that both never stand side by side
+      frame = std::make_unique<FrameBuffers>(device, size);
+    }
+    return *frame;
+  }
+
   vk::Device& device;
   SceneBuffers buffers;
   KernelSet kernels;
+  TraversalChoice choice;
   std::unique_ptr<FrameBuffers> frame;
 };
 
-Renderer::Renderer(vk::Device& device, const Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
+Renderer::Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config)
+    : state_(std::make_unique<State>(device, scene, config)) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 

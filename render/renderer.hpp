@@ -1,4 +1,5 @@
 // Renders the views of one or two eyes on the device, both in one submission. The stages, each one kernel:
+//   rays, tile  what every chief ray meets, many rays together, where that is faster (traversal.hpp)
 //   trace   one chief ray a pixel: pupil, back, front, scene; vergence, accommodation, residual, blur ellipse
 //   edges   four rays more where a picture has an edge
 //   blur    approximate defocus (mode adof)          or   samples   distributed rays (mode dof)
@@ -14,6 +15,7 @@
 
 #include "render/image/image.hpp"
 #include "render/scene_buffers.hpp"
+#include "render/traversal.hpp"
 #include "render/view_setup.hpp"
 #include "render/vk/device.hpp"
 
@@ -37,7 +39,7 @@ struct FrameConfig {
   std::uint32_t seed = 0;
   int colour_map = 0;             // 0: the paper's hue, 1: perceptual
   std::optional<MapRange> range;  // absent: from the picture
-  bool bare = false;              // as the paper drew: one light, no shadow rays, one ray a pixel even at edges
+  bool bare = false;              // as the paper drew: base colours, one light, no shadow rays, one ray a pixel
   bool keep_radiance = false;     // also return linear radiance
   bool keep_wavefront = false;    // also return the wavefront of every pixel
 };
@@ -65,7 +67,7 @@ using Progress = std::function<void(int done, int of)>;
 
 class Renderer {
  public:
-  Renderer(vk::Device& device, const Scene& scene);
+  Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) = delete;

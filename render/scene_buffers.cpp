@@ -18,6 +18,10 @@ static_assert(gpu::kLightDirectional == static_cast<int>(Light::Type::directiona
               gpu::kLightPoint == static_cast<int>(Light::Type::point) &&
               gpu::kLightSpot == static_cast<int>(Light::Type::spot));
 
+// The shaders read them as texels of four words.
+static_assert(sizeof(gpu::MaterialData) == gpu::kMaterialTexels * sizeof(glm::vec4) &&
+              sizeof(gpu::TextureData) == 2 * sizeof(glm::vec4) && sizeof(gpu::LightData) == 4 * sizeof(glm::vec4));
+
 struct Packed {
   std::vector<gpu::MaterialData> materials;
   std::vector<gpu::TextureData> textures;
@@ -161,7 +165,7 @@ void check_fits(const vk::Device& device, const Scene& scene, std::size_t texel_
 }  // namespace
 
 struct SceneBuffers::Parts {
-  Bvh4 bvh;
+  SceneBvh bvh;
   std::vector<ShadingTriangle> shading;
   std::vector<std::uint32_t> texels;
   Packed packed;
@@ -171,10 +175,10 @@ struct SceneBuffers::Parts {
     TextureTexels placed(scene);
     packed = pack_materials(scene, placed);
     check_fits(device, scene, placed.word_count(), packed.features);
-    bvh = build_bvh4(scene);
-    shading = render::shading_triangles(scene, bvh);
+    bvh = build_scene_bvh(scene);
+    shading = render::shading_triangles(scene, bvh.four);
     const auto more = static_cast<int>(shading.size() * kBvhShadingTexels);
-    if (has_more(packed.features)) append_more(scene, bvh, shading);
+    if (has_more(packed.features)) append_more(scene, bvh.four, shading);
     texels = placed.pack();
     const Environment& e = scene.environment;
     environment = {glm::vec4(e.sky_zenith, 0.0F), glm::vec4(e.sky_horizon, 0.0F), glm::vec4(e.ambient, 0.0F),
@@ -186,8 +190,9 @@ SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene)
     : SceneBuffers(device, scene, Parts(device, scene)) {}
 
 SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene, Parts&& parts)
-    : bvh_nodes(filled_buffer(device, std::move(parts.bvh.nodes))),
-      bvh_triangles(filled_buffer(device, std::move(parts.bvh.triangles))),
+    : bvh_nodes(filled_buffer(device, std::move(parts.bvh.four.nodes))),
+      wide_nodes(filled_buffer(device, std::move(parts.bvh.eight.nodes))),
+      bvh_triangles(filled_buffer(device, std::move(parts.bvh.four.triangles))),
       shading_triangles(filled_buffer(device, std::move(parts.shading))),
       texels(filled_buffer(device, std::move(parts.texels))),
       environment(filled_buffer(device, std::vector{parts.environment})),

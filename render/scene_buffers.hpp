@@ -15,7 +15,7 @@ struct SceneBuffers {
   // Uploads once; the scene may go. A scene beyond the device's buffers throws vk::DeviceError with the numbers.
   SceneBuffers(vk::Device& device, const Scene& scene);
 
-  vk::Buffer bvh_nodes, bvh_triangles, shading_triangles, texels, environment, lights, materials, textures;
+  vk::Buffer bvh_nodes, wide_nodes, bvh_triangles, shading_triangles, texels, environment, lights, materials, textures;
   std::size_t triangle_count = 0;
   std::uint32_t features = 0;  // kFeature... of shaders/view.h: what kernels must know for this scene
 

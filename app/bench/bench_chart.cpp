@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
+
+#include "app/bench/bench_text.hpp"
 
 namespace app {
 namespace {
@@ -20,6 +23,14 @@ std::string hex(const render::Rgb& colour) {
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.r, colour.g, colour.b);
   return text;
+}
+
+// A file's own name, and of a long one the end.
+std::string short_name(const std::string& lens) {
+  constexpr std::size_t kMost = 18;
+  const bool is_file = lens.ends_with(".json");
+  const std::string name = is_file ? std::filesystem::path(lens).stem().string() : lens;
+  return name.size() <= kMost ? name : ".." + name.substr(name.size() - kMost + 2);
 }
 
 }  // namespace
@@ -45,12 +56,14 @@ Chart bench_chart(const BenchReport& report) {
   int y = kTop;
   for (const BenchRow* row : rows) {
     const auto length = [&](double ms) { return static_cast<int>(std::lround(kBars * ms / std::max(longest, 1e-9))); };
-    chart.labels.push_back({10, y + 3, row->lens + " " + row->mode, kInk});
+    chart.labels.push_back({10, y + 3, short_name(row->lens) + " " + row->mode, kInk});
     chart.bars.push_back({{kLeft, y, length(row->ms.median), 12}, kOurs});
     chart.bars.push_back({{kLeft + length(row->ms.min), y + 5, length(row->ms.max) - length(row->ms.min), 2}, kInk});
     chart.labels.push_back({kLeft + length(row->ms.max) + 6, y + 2, two_decimals(row->ms.median), kInk});
-    chart.bars.push_back({{kLeft, y + 14, length(paper_ms(*row)), 8}, kPaper});
-    chart.labels.push_back({kLeft + length(paper_ms(*row)) + 6, y + 14, two_decimals(paper_ms(*row)), kPaper});
+    if (const double paper = paper_ms(*row); paper > 0.0) {
+      chart.bars.push_back({{kLeft, y + 14, length(paper), 8}, kPaper});
+      chart.labels.push_back({kLeft + length(paper) + 6, y + 14, two_decimals(paper), kPaper});
+    }
     y += kStep;
   }
   return chart;
@@ -68,7 +81,7 @@ std::string to_svg(const Chart& chart) {
   constexpr int kBaseline = 9;  // from the top of a 12 px letter
   for (const Chart::Label& label : chart.labels) {
     out << "<text x=\"" << label.x << "\" y=\"" << label.y + kBaseline << "\" fill=\"" << hex(label.colour) << "\">"
-        << label.text << "</text>\n";
+        << html_escaped(label.text) << "</text>\n";
   }
   out << "</svg>\n";
   return out.str();

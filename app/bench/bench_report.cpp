@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "app/bench/bench_growth.hpp"
+#include "app/bench/bench_text.hpp"
 #include "app/report/html.hpp"
-#include "app/report/text.hpp"
 
 namespace app {
 namespace {
@@ -47,13 +48,16 @@ std::string rows_of_size(const BenchReport& report, int size, const std::string&
     }
     if (out.empty()) {
       out = format("\n%dx%d, %s\n", size, size,
-                   shading == "bare" ? "bare: one light, no shadow rays, one ray a pixel, as in the paper"
+                   shading == "bare" ? "bare: base colours, one light, no shadow rays, one ray a pixel, as in the paper"
                                      : "full: every light with its shadow rays, edges refined");
-      out += "lens             mode    median ms      min      max      fps   GTX 480 ms   stages\n";
+      out += format("%-*s mode    median ms      min      max      fps   GTX 480 ms   stages\n", lens_width(report),
+                    "lens");
     }
-    const std::string paper = shading == "bare" ? format("%12.2f", paper_ms(row)) : format("%12s", "-");
-    out += format("%-16s %-5s %11.2f %8.2f %8.2f %8.1f %s   %s\n", row.lens.c_str(), row.mode.c_str(), row.ms.median,
-                  row.ms.min, row.ms.max, row.fps(), paper.c_str(), stage_list(row).c_str());
+    const bool compared = shading == "bare" && paper_ms(row) > 0.0;
+    const std::string paper = compared ? format("%12.2f", paper_ms(row)) : format("%12s", "-");
+    out +=
+        format("%-*s %-5s %11.2f %8.2f %8.2f %8.1f %s   %s\n", lens_width(report), row.lens.c_str(), row.mode.c_str(),
+               row.ms.median, row.ms.min, row.ms.max, row.fps(), paper.c_str(), stage_list(row).c_str());
   }
   return out;
 }
@@ -66,11 +70,12 @@ std::string ratios_of_size(const BenchReport& report, int size) {
   const PeerRow* plain_peer = find_peer(report, "none", size);
   const PeerRow* spline_peer = find_peer(report, "bspline/sphere", size);
   if (pinhole != nullptr && plain_peer != nullptr && pinhole->stage("trace") > 0.0) {
-    // Both in millions of rays a second; ours pays for the ray and the shading in the same stage.
-    const double ours = pinhole->pixels() / pinhole->stage("trace") * 1e-3;
+    // Both in millions of rays a second. A tile's stage finds hits and no more; the per-ray one shades them too.
+    const double tile = pinhole->stage("tile");
+    const double ours = pinhole->pixels() / (tile > 0.0 ? tile : pinhole->stage("trace")) * 1e-3;
     const double peer = static_cast<double>(plain_peer->rays) / plain_peer->ms.median * 1e-3;
-    out += format("  scene rays: %.1f M/s (trace stage of none/pin, shading included), Embree16 %.1f M/s: %.2f of it\n",
-                  ours, peer, ours / peer);
+    out += format("  scene rays: %.1f M/s (%s of none/pin), Embree16 %.1f M/s: %.2f of it\n", ours,
+                  tile > 0.0 ? "tile stage" : "trace stage, shading included,", peer, ours / peer);
   }
   if (plain != nullptr && spline != nullptr && plain->ms.median > 0.0) {
     out += format("  bspline/sphere adof / none adof: %.2f (paper: %.2f)\n", spline->ms.median / plain->ms.median,
@@ -81,36 +86,13 @@ std::string ratios_of_size(const BenchReport& report, int size) {
                   spline->ms.median, spline_peer->rays, spline_peer->ms.median, spline_peer->ms.min,
                   spline_peer->ms.max, spline->ms.median / spline_peer->ms.median);
   }
+  const BenchRow* fine = find(report, kFineNetLens, "adof", size, "bare");
+  if (spline != nullptr && fine != nullptr && spline->ms.median > 0.0) {
+    out += format("  100 x 100 control points / 50 x 50: frame %.3f (least over least %.3f), trace stage %.3f\n",
+                  fine->ms.median / spline->ms.median, fine->ms.min / spline->ms.min,
+                  fine->stage("trace") / spline->stage("trace"));
+  }
   return out.empty() ? out : format("\nRatios at %dx%d\n", size, size) + out;
-}
-
-// Nanoseconds a pixel at each size; equal numbers are linear growth.
-std::string growth(const BenchReport& report) {
-  const std::set<int> sizes = sizes_of(report);
-  if (sizes.size() < 2) {
-    return {};
-  }
-  std::string out = "\nNanoseconds a pixel (equal: time grows linearly with pixels), and the last over the first\n";
-  out += format("%-16s %-5s", "lens", "mode");
-  for (const int size : sizes) {
-    out += format(" %9d", size);
-  }
-  out += "    ratio\n";
-  for (const BenchRow& row : report.rows) {
-    if (row.size != *sizes.begin() || row.shading != report.rows.front().shading) {
-      continue;
-    }
-    out += format("%-16s %-5s", row.lens.c_str(), row.mode.c_str());
-    double first = 0.0, last = 0.0;
-    for (const int size : sizes) {
-      const BenchRow* here = find(report, row.lens, row.mode, size, row.shading);
-      last = here == nullptr ? 0.0 : here->ms.median * 1e6 / here->pixels();
-      first = first == 0.0 ? last : first;
-      out += format(" %9.1f", last);
-    }
-    out += format(" %8.2f\n", first > 0.0 ? last / first : 0.0);
-  }
-  return out;
 }
 
 std::string machines(const BenchReport& report) {
@@ -131,7 +113,7 @@ std::string bench_table(const BenchReport& report) {
   for (const int size : sizes_of(report)) {
     out += rows_of_size(report, size, "bare") + rows_of_size(report, size, "full") + ratios_of_size(report, size);
   }
-  return out + growth(report);
+  return out + growth_table(report);
 }
 
 std::string bench_page(const BenchReport& report) {

@@ -23,6 +23,11 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+// A file's name may hold anything.
+std::string field(const std::string& text) {
+  return text.find_first_of(",\"\n\r") == std::string::npos ? text : quoted(text);
+}
+
 }  // namespace
 
 Spread spread_of(std::vector<double> values) {
@@ -105,17 +110,19 @@ std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> p
 
 std::string rows_csv(std::span<const BenchRow> rows, std::span<const PeerRow> peers) {
   std::ostringstream out;
-  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,trace_ms,edges_ms,blur_ms,samples_ms,encode_ms,"
+  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,rays_ms,tile_ms,trace_ms,edges_ms,blur_ms,"
+         "samples_ms,encode_ms,"
          "embree16_ms,paper_fps_at_1024,device\n";
   for (const BenchRow& row : rows) {
-    out << row.lens << ',' << row.mode << ',' << row.size << ',' << row.shading << ',' << row.triangles << ','
+    out << field(row.lens) << ',' << row.mode << ',' << row.size << ',' << row.shading << ',' << row.triangles << ','
         << row.ms.median << ',' << row.ms.min << ',' << row.ms.max << ',' << row.fps();
-    for (const char* stage : {"trace", "edges", "blur", "samples", "encode"}) {
+    for (const char* stage : {"rays", "tile", "trace", "edges", "blur", "samples", "encode"}) {
       out << ',' << row.stage(stage);
     }
     const PeerRow* peer = peer_of(row, peers);
     out << ',' << (peer != nullptr ? std::to_string(peer->ms.median) : "") << ','
-        << paper_fps(row.lens, row.mode).value_or(0.0) << ',' << quoted(row.device) << '\n';
+        << (paper_fps(row.lens, row.mode) ? std::to_string(*paper_fps(row.lens, row.mode)) : "") << ','
+        << quoted(row.device) << '\n';
   }
   return out.str();
 }

@@ -23,9 +23,11 @@ using StageTimes = std::vector<std::pair<std::string, double>>;
 
 inline const std::array<std::string, 5> kBenchLenses{"none", "sphere/sphere", "sphere/torus", "bspline/sphere",
                                                      "bspline/torus"};
+// The front of bspline/sphere with 100 x 100 control points instead of 50 x 50; no lens of the paper's table.
+inline const std::string kFineNetLens = "bspline100/sphere";
 inline const std::array<std::string, 4> kBenchModes{"adof", "vis", "pin", "dof"};
 
-// bare: as the paper drew, with one light, no shadow rays and one ray a pixel. full: as `render` draws.
+// bare: as the paper drew, in base colours with one light, no shadow rays and one ray a pixel. full: as `render` draws.
 inline const std::array<std::string, 2> kBenchShadings{"bare", "full"};
 
 struct BenchRow {

@@ -96,10 +96,11 @@ std::string measure_page(const MeasureReport& report, const WornSetting& worn, s
             html_escaped(picture.caption) + "\"><figcaption>" + html_escaped(picture.caption) +
             "</figcaption></figure>\n";
   }
-  body += "<p>Every number: <a href=\"readings.csv\">readings.csv</a>, " +
-          std::string(report.verdict ? "<a href=\"verdict.csv\">verdict.csv</a>, " : "") +
-          "<a href=\"lens_map.csv\">lens_map.csv</a>, <a href=\"worn_map.csv\">worn_map.csv</a>. They judge the lens "
-          "against its tolerances, not what it is like to wear. Not a medical device.</p>\n";
+  body +=
+      "<p>Every number: <a href=\"readings.csv\">readings.csv</a>, " +
+      std::string(report.verdict ? "<a href=\"verdict.csv\">verdict.csv</a>, " : "") +
+      "<a href=\"lens_map.csv\">lens_map.csv</a>, <a href=\"worn_map.csv\">worn_map.csv</a>. A verdict judges the lens "
+      "against its tolerances, not what it is like to wear. Not a medical device.</p>\n";
   return html_page(report.source, body);
 }
 

@@ -1,10 +1,13 @@
 #include "app/measure/measure_pictures.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
+#include "app/measure/lens_marks.hpp"
 #include "app/report/text.hpp"
 #include "lenses/measure/lens_outline.hpp"
 
@@ -18,10 +21,22 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPowerStep = 0.25, kPrismStep = 1.0, kThicknessStep = 0.25;  // D, prism dioptres, mm
 constexpr double kLeastCylinder = 0.12;                                       // with an axis worth a stroke, D
 
-// From a point of the back (reference points, outline) and of the front (segments) to its place in the plot.
-struct ToPlot {
-  std::function<glm::dvec2(const glm::dvec2&)> from_back, from_front;
-};
+// Short lines along the cylinder's axis, a twelfth of the map apart; power(i) is none where nothing was read.
+void add_axes(MapPicture& map, lenses::CylinderForm form,
+              const std::function<std::optional<glm::dvec3>(std::size_t)>& power) {
+  const lenses::Grid& grid = map.field.grid;
+  const std::size_t every = std::max<std::size_t>(1, (grid.columns - 1) / 12);
+  const std::size_t from_middle = (grid.columns / 2) % every;
+  for (std::size_t i = 0; i < grid.count(); ++i) {
+    if ((i % grid.columns) % every != from_middle || (i / grid.columns) % every != from_middle) {
+      continue;
+    }
+    const auto here = power(i);
+    if (here && lenses::astigmatism(*here) >= kLeastCylinder) {
+      map.strokes.push_back({grid.at(i), std::numbers::pi - sphere_cylinder(*here, form).axis});
+    }
+  }
+}
 
 const char* view_words(ViewedBy viewed_by) {
   return viewed_by == ViewedBy::wearer ? "as the wearer sees it" : "as the examiner sees it";
@@ -40,71 +55,9 @@ void set_sides(MapPicture& map, const MeasureReport& report, ViewedBy viewed_by)
   map.mirrored = viewed_by == ViewedBy::examiner;
 }
 
-// Straight edges of the lens may be curves in the plot.
-std::vector<glm::dvec2> plotted(const std::vector<glm::dvec2>& polygon,
-                                const std::function<glm::dvec2(const glm::dvec2&)>& to_plot) {
-  const int parts = polygon.size() < 100 ? 16 : 1;
-  std::vector<glm::dvec2> line;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    for (int k = 0; k < parts; ++k) {
-      line.push_back(to_plot(a + (b - a) * (static_cast<double>(k) / parts)));
-    }
-  }
-  return line;
-}
-
-void add_lens_marks(MapPicture& map, const lenses::Lens& lens, const ToPlot& to_plot) {
-  const lenses::ReferencePoints& points = lens.reference_points;
-  const auto add = [&](MapMark::Shape shape, const std::optional<glm::dvec2>& at, const char* label) {
-    if (at) {
-      map.marks.push_back({shape, to_plot.from_back(*at), label});
-    }
-  };
-  add(MapMark::Shape::cross, points.fitting_cross, "");
-  add(MapMark::Shape::circle, points.distance, "D");
-  add(MapMark::Shape::circle, points.near, "N");
-  add(MapMark::Shape::dot, lenses::prism_point(lens), "P");
-  if (!lens.outline.empty()) {
-    map.outlines.push_back(plotted(lens.outline, to_plot.from_back));
-  }
-  // Numbers as zone_of (lenses/measure/zone.hpp) gives them.
-  if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(&lens.back)) {
-    map.zones.push_back({plotted(segmented->boundary, to_plot.from_back), 1});
-  }
-  if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(&lens.front)) {
-    map.zones.push_back({plotted(segmented->boundary, to_plot.from_front), 2});
-  }
-}
-
 // What the scale is fitted to: values inside the outline, or the lens where there is none.
 bool counts(const lenses::Lens& lens, const glm::dvec2& point) {
   return lens.outline.empty() || lenses::inside_polygon(lens.outline, point);
-}
-
-// The lens as it would be without segments.
-lenses::Lens without_segments(lenses::Lens lens) {
-  for (lenses::Surface* surface : {&lens.front, &lens.back}) {
-    if (const auto* segmented = std::get_if<lenses::SegmentedSurface>(surface)) {
-      const lenses::BasicSurface base = segmented->base;
-      *surface = std::visit([](const auto& shape) { return lenses::Surface(shape); }, base);
-    }
-  }
-  return lens;
-}
-
-// Where a lensmeter's beam that meets the front at a point meets the back.
-glm::dvec2 back_of_front_point(const lenses::Lensmeter& lensmeter, const glm::dvec2& point) {
-  constexpr int kSteps = 12;
-  glm::dvec2 back = point;
-  for (int i = 0; i < kSteps; ++i) {
-    const lenses::LensmeterReading reading = lensmeter.read(lenses::LensSide::back, back);
-    if (reading.status != RayStatus::ok) {
-      return point;
-    }
-    back += point - reading.far_point;
-  }
-  return back;
 }
 
 class LensPictures {
@@ -138,22 +91,6 @@ class LensPictures {
     return map;
   }
 
-  // Short lines along the cylinder's axis, about 6 mm apart on a lens of 65 mm.
-  void add_axes(MapPicture& map) const {
-    const std::size_t every = std::max<std::size_t>(1, (map_.grid.columns - 1) / 12);
-    for (std::size_t i = 0; i < map_.readings.size(); ++i) {
-      const lenses::LensmeterReading& reading = map_.readings[i].back;
-      const std::size_t from_middle = (map_.grid.columns / 2) % every;
-      const bool chosen =
-          (i % map_.grid.columns) % every == from_middle && (i / map_.grid.columns) % every == from_middle;
-      if (!chosen || reading.status != RayStatus::ok || lenses::astigmatism(reading.power) < kLeastCylinder) {
-        continue;
-      }
-      const double tabo = sphere_cylinder(reading.power, report_.form).axis;
-      map.strokes.push_back({map.field.grid.at(i), std::numbers::pi - tabo});
-    }
-  }
-
   void set_note(MapPicture& map, const std::string& unit) const {
     map.note = format("%g %s a line, %s; %s", map.scale.step, unit.c_str(), view_words(viewed_by_),
                       short_name(report_).c_str());
@@ -175,11 +112,11 @@ class WornPictures {
         base_(without_segments(report.lens), report.side, eye),
         viewed_by_(viewed_by) {}
 
-  [[nodiscard]] MapPicture picture(const std::string& title,
+  [[nodiscard]] MapPicture picture(const std::string& title, const std::string& unit, double step,
                                    const std::function<double(const lenses::WornMapReading&)>& value) const {
     MapPicture map;
     map.title = title;
-    map.unit = std::string("D");
+    map.unit = unit;
     map.x_label = "gaze, deg to the wearer's right";
     map.y_label = "deg up";
     set_sides(map, report_, viewed_by_);
@@ -193,11 +130,18 @@ class WornPictures {
         counted.push_back(map.field.values.back());
       }
     }
-    map.scale = map_scale(counted, kPowerStep);
-    map.note = format("%g D a line, %s; %s", map.scale.step, view_words(viewed_by_), short_name(report_).c_str());
+    map.scale = map_scale(counted, step);
+    map.note = format("%g %s a line, %s; %s", map.scale.step, unit.c_str(), view_words(viewed_by_),
+                      short_name(report_).c_str());
     const ToPlot to_gaze{
         [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(worn_.gaze_through(p)); },
         [&](const glm::dvec2& p) { return kDegrees * lenses::gaze_angles(base_.gaze_through_front(p)); }};
+    if (report_.lens.attached_to == lenses::Lens::AttachedTo::eye) {
+      // It turns with the eye: no point of it belongs to a gaze.
+      const glm::dvec2 low = map.field.grid.low, high = map.field.grid.high;
+      map.region = {low, {high.x, low.y}, high, {low.x, high.y}};
+      return map;
+    }
     map.region = plotted(lenses::blank_of(report_.lens), to_gaze.from_back);
     add_lens_marks(map, report_.lens, to_gaze);
     return map;
@@ -218,46 +162,78 @@ double if_ok(const lenses::LensmeterReading& reading, double value) {
   return reading.status == RayStatus::ok ? value : kNone;
 }
 
+using Pictures = std::vector<NamedPicture>;
+
+void add(Pictures& pictures, const std::string& file, const std::string& caption, const MapPicture& map) {
+  pictures.push_back({file + ".png", caption, draw_map(map)});
+}
+
+void add_lens_pictures(Pictures& pictures, const MeasureReport& report, const lenses::LensMap& lens_map,
+                       ViewedBy viewed_by) {
+  const LensPictures on_lens(report, lens_map, viewed_by);
+  add(pictures, "power", "Mean back vertex power over the lens, the beam normal to the back surface at each point.",
+      on_lens.picture("Back vertex power, mean", "D", kPowerStep,
+                      [](const auto& r) { return if_ok(r.back, lenses::mean_power(r.back.power)); }));
+  MapPicture cylinder = on_lens.picture("Cylinder, strokes along its axis", "D", kPowerStep,
+                                        [](const auto& r) { return if_ok(r.back, lenses::astigmatism(r.back.power)); });
+  add_axes(cylinder, report.form, [&](std::size_t i) {
+    const lenses::LensmeterReading& r = lens_map.readings[i].back;
+    return r.status == RayStatus::ok ? std::optional(r.power) : std::nullopt;
+  });
+  add(pictures, "cylinder", "Cylinder over the lens; short lines lie along its axis.", cylinder);
+  MapPicture prism = on_lens.picture("Prism", "pd", kPrismStep,
+                                     [](const auto& r) { return if_ok(r.back, glm::length(r.back.prism)); });
+  prism.decimals = 0;
+  add(pictures, "prism", "Prism over the lens, prism dioptres.", prism);
+  add(pictures, "thickness", "Thickness along the lens axis.",
+      on_lens.picture("Thickness along the axis", "mm", kThicknessStep,
+                      [](const auto& r) { return 1e3 * r.thickness; }));
+}
+
+// One of the two distances at which a map has a reading for each gaze.
+struct WornDistance {
+  std::string file, title, caption;
+  lenses::WornReading lenses::WornMapReading::*reading;
+};
+
+void add_worn_pictures(Pictures& pictures, const MeasureReport& report, const lenses::WornMap& worn_map,
+                       const lenses::Eye& eye, ViewedBy viewed_by) {
+  const WornPictures as_worn(report, worn_map, eye, viewed_by);
+  const glm::dvec3 ordered = ordered_power(report);
+  const std::string beyond(report.lens.order ? " beyond the order" : "");
+  const WornDistance distances[]{
+      {"worn", "As worn, far: ", " as worn by the turning eye, object at infinity", &lenses::WornMapReading::far},
+      {"working", "At working distance: ", " as worn, object at each gaze's working distance",
+       &lenses::WornMapReading::working}};
+  for (const WornDistance& at : distances) {
+    add(pictures, at.file + "_power", "Mean power" + at.caption + ", at the vertex sphere.",
+        as_worn.picture(at.title + "mean power", "D", kPowerStep, [&](const auto& r) {
+          return if_ok(r.*at.reading, lenses::mean_power((r.*at.reading).power));
+        }));
+    MapPicture map = as_worn.picture(at.title + "astigmatism" + beyond, "D", kPowerStep, [&](const auto& r) {
+      return if_ok(r.*at.reading, lenses::astigmatism((r.*at.reading).power - ordered));
+    });
+    add_axes(map, report.form, [&](std::size_t i) {
+      const lenses::WornReading& r = worn_map.readings[i].*at.reading;
+      return r.status == RayStatus::ok ? std::optional(r.power - ordered) : std::nullopt;
+    });
+    add(pictures, at.file + "_astigmatism", "Astigmatism" + beyond + at.caption + "; short lines lie along its axis.",
+        map);
+  }
+  MapPicture prism = as_worn.picture("As worn: prism", "pd", kPrismStep,
+                                     [](const auto& r) { return if_ok(r.far, glm::length(r.far.prism)); });
+  prism.decimals = 0;
+  add(pictures, "worn_prism", "Deviation of the turning eye's line of sight, prism dioptres.", prism);
+}
+
 }  // namespace
 
 std::vector<NamedPicture> measure_pictures(const MeasureReport& report, const lenses::LensMap& lens_map,
                                            const lenses::WornMap& worn_map, const lenses::Eye& eye,
                                            ViewedBy viewed_by) {
-  std::vector<NamedPicture> pictures;
-  const auto add = [&](const std::string& file, const std::string& caption, const MapPicture& map) {
-    pictures.push_back({file + ".png", caption, draw_map(map)});
-  };
-  const LensPictures on_lens(report, lens_map, viewed_by);
-  add("power", "Mean back vertex power over the lens, the beam normal to the back surface at each point.",
-      on_lens.picture("Back vertex power, mean", "D", kPowerStep,
-                      [](const auto& r) { return if_ok(r.back, lenses::mean_power(r.back.power)); }));
-  MapPicture cylinder = on_lens.picture("Cylinder, strokes along its axis", "D", kPowerStep,
-                                        [](const auto& r) { return if_ok(r.back, lenses::astigmatism(r.back.power)); });
-  on_lens.add_axes(cylinder);
-  add("cylinder", "Cylinder over the lens; short lines lie along its axis.", cylinder);
-  MapPicture prism = on_lens.picture("Prism", "pd", kPrismStep,
-                                     [](const auto& r) { return if_ok(r.back, glm::length(r.back.prism)); });
-  prism.decimals = 0;
-  add("prism", "Prism over the lens, prism dioptres.", prism);
-  add("thickness", "Thickness along the lens axis.",
-      on_lens.picture("Thickness along the axis", "mm", kThicknessStep,
-                      [](const auto& r) { return 1e3 * r.thickness; }));
-
-  const WornPictures as_worn(report, worn_map, eye, viewed_by);
-  add("worn_power", "Mean power as worn by the turning eye, object at infinity, at the vertex sphere.",
-      as_worn.picture("As worn, far: mean power",
-                      [](const auto& r) { return if_ok(r.far, lenses::mean_power(r.far.power)); }));
-  const glm::dvec3 ordered = ordered_power(report);
-  const std::string beyond(report.lens.order ? " beyond the order" : "");
-  add("worn_astigmatism", "Astigmatism" + beyond + " as worn, object at infinity.",
-      as_worn.picture("As worn, far: astigmatism" + beyond,
-                      [&](const auto& r) { return if_ok(r.far, lenses::astigmatism(r.far.power - ordered)); }));
-  add("working_power", "Mean power as worn with the object at each gaze's working distance.",
-      as_worn.picture("As worn, at working distance: mean power",
-                      [](const auto& r) { return if_ok(r.working, lenses::mean_power(r.working.power)); }));
-  add("working_astigmatism", "Astigmatism" + beyond + " as worn with the object at each gaze's working distance.",
-      as_worn.picture("As worn, at working distance: astigmatism" + beyond,
-                      [&](const auto& r) { return if_ok(r.working, lenses::astigmatism(r.working.power - ordered)); }));
+  Pictures pictures;
+  add_lens_pictures(pictures, report, lens_map, viewed_by);
+  add_worn_pictures(pictures, report, worn_map, eye, viewed_by);
   return pictures;
 }
 

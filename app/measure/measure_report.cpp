@@ -56,7 +56,7 @@ std::string reading_line(const MeasureReport& report, const lenses::PointReading
 std::string check_line(const lenses::Check& check) {
   const bool plain = check.tolerance == "axis" || check.tolerance == "prism";
   const auto value = [&](std::optional<double> v) { return plain ? number(v, 2) : signed_number(v, 2); };
-  std::string line = check.tolerance + std::string(10 - check.tolerance.size(), ' ');
+  std::string line = check.tolerance + std::string(19 - check.tolerance.size(), ' ');
   line += padded(value(check.measured), 9) + padded(value(check.target), 9) +
           padded(signed_number(check.difference, 3), 12) + padded(number(check.limit, 3), 8) + "  " + check.unit;
   return line + std::string(5 - check.unit.size(), ' ') + (check.pass ? "pass" : "FAIL") + "\n";
@@ -117,7 +117,7 @@ std::optional<double> base_degrees(const lenses::Prism& prism) {
 
 MeasureReport measure_lens(const std::string& source, const lenses::Lens& lens, lenses::Side side,
                            lenses::CylinderForm form, lenses::LensClass lens_class,
-                           const lenses::ToleranceStandard& standard) {
+                           const lenses::ToleranceStandard& standard, const std::optional<lenses::Lens>& other) {
   const lenses::Lensmeter lensmeter(lens);
   MeasureReport report;
   report.source = source;
@@ -128,8 +128,14 @@ MeasureReport measure_lens(const std::string& source, const lenses::Lens& lens, 
   report.readings = read_lens_powers(lens, lensmeter);
   report.centre_thickness = lensmeter.thickness(glm::dvec2(0.0));
   report.edge = edge_thickness(lens, lensmeter);
-  if (lens.order) {
+  if (lens.order && lens.attached_to == lenses::Lens::AttachedTo::head) {
     report.verdict = judge(standard, lens_class, report.readings, *lens.order);
+    if (other) {
+      const lenses::LensReadings theirs = read_lens_powers(*other, lenses::Lensmeter(*other));
+      if (const auto check = vertical_imbalance(standard, report.readings, lens.order, theirs, other->order)) {
+        report.verdict->checks.push_back(*check);
+      }
+    }
   }
   return report;
 }
@@ -143,6 +149,9 @@ glm::dvec3 ordered_power(const MeasureReport& report) {
 }
 
 std::string verdict_line(const MeasureReport& report) {
+  if (report.lens.attached_to == lenses::Lens::AttachedTo::eye) {
+    return "No verdict: the tolerances are for spectacle lenses, and this one is worn on the eye.";
+  }
   if (!report.verdict) {
     return "No verdict: nothing says what was ordered; give --sphere, --cylinder, --axis, --add, --prism.";
   }
@@ -166,7 +175,7 @@ std::string measure_table(const MeasureReport& report) {
   out += verdict_line(report);
   out += '\n';
   if (report.verdict) {
-    out += "tolerance  measured   target  difference   limit\n";
+    out += "tolerance           measured   target  difference   limit\n";
     for (const lenses::Check& check : report.verdict->checks) {
       out += check_line(check);
     }

@@ -21,13 +21,15 @@ struct MeasureReport {
   lenses::LensReadings readings;
   std::optional<double> centre_thickness;  // m, at the lens's origin
   std::optional<lenses::EdgeThickness> edge;
-  std::optional<lenses::Verdict> verdict;  // none: nothing was ordered
+  std::optional<lenses::Verdict> verdict;  // none: nothing was ordered, or it is a contact lens
 };
 
-// Throws std::invalid_argument for a lens that cannot be modelled. `standard` counts only where something was ordered.
+// Throws std::invalid_argument for a lens that cannot be modelled. `standard` counts only where something was ordered;
+// `other` is the pair's other lens, for what is judged of a pair.
 [[nodiscard]] MeasureReport measure_lens(const std::string& source, const lenses::Lens& lens, lenses::Side side,
                                          lenses::CylinderForm form, lenses::LensClass lens_class,
-                                         const lenses::ToleranceStandard& standard);
+                                         const lenses::ToleranceStandard& standard,
+                                         const std::optional<lenses::Lens>& other = std::nullopt);
 
 // What was ordered for distance, as a power matrix; zero where nothing was. Astigmatism beyond it is unwanted.
 [[nodiscard]] glm::dvec3 ordered_power(const MeasureReport& report);

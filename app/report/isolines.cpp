@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <unordered_map>
 
@@ -16,6 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // above it.
 struct Piece {
   std::size_t from, to;
+  bool real;  // more than a ripple
 };
 
 struct Pieces {
@@ -67,7 +69,7 @@ bool more_than_a_ripple(const GridField& field, const Cell& cell, double level, 
   return above && below;
 }
 
-void add_pieces(const GridField& field, const Cell& cell, double level, Pieces& pieces) {
+void add_pieces(const GridField& field, const Cell& cell, double level, bool real, Pieces& pieces) {
   std::vector<std::size_t> ends;  // in order around the cell
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t a = cell.corner[k], b = cell.corner[(k + 1) % 4];
@@ -80,7 +82,7 @@ void add_pieces(const GridField& field, const Cell& cell, double level, Pieces& 
     ends.push_back(cell.edge[k]);
   }
   if (ends.size() == 2) {
-    pieces.list.push_back({ends[0], ends[1]});
+    pieces.list.push_back({ends[0], ends[1], real});
   } else if (ends.size() == 4) {
     // A saddle: its middle says which corners are joined.
     double mean = 0.0;
@@ -89,8 +91,8 @@ void add_pieces(const GridField& field, const Cell& cell, double level, Pieces& 
     }
     const bool joins_first = (mean >= level) == (field.values[cell.corner[0]] >= level);
     const std::size_t shift = joins_first ? 0 : 1;
-    pieces.list.push_back({ends[shift], ends[shift + 1]});
-    pieces.list.push_back({ends[shift + 2], ends[(shift + 3) % 4]});
+    pieces.list.push_back({ends[shift], ends[shift + 1], real});
+    pieces.list.push_back({ends[shift + 2], ends[(shift + 3) % 4], real});
   }
 }
 
@@ -101,18 +103,15 @@ std::vector<Isoline> joined(const Pieces& pieces) {
     at_edge.emplace(pieces.list[i].to, i);
   }
   std::vector<bool> used(pieces.list.size(), false);
-  // The edge at the other end of an unused piece, if there is one.
-  const auto next = [&](std::size_t edge, std::size_t& to) {
+  // A piece at an edge that is in no line yet.
+  const auto next = [&](std::size_t edge) -> const Piece* {
     const auto [first, last] = at_edge.equal_range(edge);
-    for (auto it = first; it != last; ++it) {
-      if (!used[it->second]) {
-        used[it->second] = true;
-        const Piece& piece = pieces.list[it->second];
-        to = piece.from == edge ? piece.to : piece.from;
-        return true;
-      }
+    const auto found = std::find_if(first, last, [&](const auto& entry) { return !used[entry.second]; });
+    if (found == last) {
+      return nullptr;
     }
-    return false;
+    used[found->second] = true;
+    return &pieces.list[found->second];
   };
   std::vector<Isoline> lines;
   for (std::size_t i = 0; i < pieces.list.size(); ++i) {
@@ -121,17 +120,21 @@ std::vector<Isoline> joined(const Pieces& pieces) {
     }
     used[i] = true;
     std::deque<std::size_t> edges{pieces.list[i].from, pieces.list[i].to};
-    std::size_t to = 0;
-    while (next(edges.back(), to)) {
-      edges.push_back(to);
+    std::size_t real = pieces.list[i].real ? 1 : 0;
+    while (const Piece* piece = next(edges.back())) {
+      real += piece->real ? 1U : 0U;
+      edges.push_back(piece->from == edges.back() ? piece->to : piece->from);
     }
-    while (next(edges.front(), to)) {
-      edges.push_front(to);
+    while (const Piece* piece = next(edges.front())) {
+      real += piece->real ? 1U : 0U;
+      edges.push_front(piece->from == edges.front() ? piece->to : piece->from);
+    }
+    if (2 * real < edges.size() - 1) {
+      continue;
     }
     Isoline line;
-    for (const std::size_t edge : edges) {
-      line.points.push_back(pieces.place.at(edge));
-    }
+    std::ranges::transform(edges, std::back_inserter(line.points),
+                           [&](std::size_t edge) { return pieces.place.at(edge); });
     lines.push_back(std::move(line));
   }
   return lines;
@@ -190,8 +193,8 @@ std::vector<Isoline> isolines(const GridField& field, double level, double rippl
   for (std::size_t row = 0; row + 1 < field.grid.rows; ++row) {
     for (std::size_t column = 0; column + 1 < field.grid.columns; ++column) {
       const Cell cell = cell_at(field.grid, column, row);
-      if (whole(field, cell) && crossed(field, cell, level) && more_than_a_ripple(field, cell, level, ripple)) {
-        add_pieces(field, cell, level, pieces);
+      if (whole(field, cell) && crossed(field, cell, level)) {
+        add_pieces(field, cell, level, more_than_a_ripple(field, cell, level, ripple), pieces);
       }
     }
   }

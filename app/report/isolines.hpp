@@ -34,8 +34,8 @@ struct Isoline {
   std::vector<glm::dvec2> points;  // closed: the first again at the end
 };
 
-// No line where the field, within a sixteenth of the grid, does not go beyond the level by more than `ripple` to both
-// sides: it would follow ripples and rounding.
+// No line along most of which the field, within a sixteenth of the grid, does not go beyond the level by more than
+// `ripple` to both sides: it would follow ripples and rounding.
 [[nodiscard]] std::vector<Isoline> isolines(const GridField& field, double level, double ripple);
 
 }  // namespace app

@@ -50,13 +50,18 @@ void draw_text_beside(Image8& image, int x, int y, const std::string& text, Rgb 
 class Drawing {
  public:
   explicit Drawing(const MapPicture& map)
-      : map_(map),
-        filled_(grown(map.field, 3)),
-        image_(render::black_image(kLeft + kPlot + kBar, kTop + kPlot + kBottom)) {
+      : map_(map), filled_(map.field), image_(render::black_image(kLeft + kPlot + kBar, kTop + kPlot + kBottom)) {
     render::fill_rect(image_, {0, 0, image_.width, image_.height}, kGround);
     const glm::dvec2 size = map.field.grid.high - map.field.grid.low;
     per_pixel_ = std::max(size.x, size.y) / kPlot;
     middle_ = 0.5 * (map.field.grid.low + map.field.grid.high);
+    // A sample without a value, such as one in the wall of a segment, belongs to where it lies.
+    for (std::size_t i = 0; i < filled_.zones.size(); ++i) {
+      if (!std::isfinite(filled_.values[i])) {
+        filled_.zones[i] = zone_at(filled_.grid.at(i));
+      }
+    }
+    filled_ = grown(std::move(filled_), 3);
   }
 
   Image8 finished() {
@@ -99,14 +104,17 @@ class Drawing {
     draw_polygon(map_.region, 1.5, kFrame);
   }
 
+  [[nodiscard]] int zone_at(const glm::dvec2& point) const {
+    int zone = 0;
+    for (const MapZone& part : map_.zones) {
+      zone += lenses::inside_polygon(part.edge, point) ? part.number : 0;
+    }
+    return zone;
+  }
+
   void fill_pixel(int x, int y) {
-    const double value = value_at(filled_, place(x + 0.5, y + 0.5), [&](const glm::dvec2& point) {
-      int zone = 0;
-      for (const MapZone& part : map_.zones) {
-        zone += lenses::inside_polygon(part.edge, point) ? part.number : 0;
-      }
-      return zone;
-    });
+    const double value =
+        value_at(filled_, place(x + 0.5, y + 0.5), [&](const glm::dvec2& point) { return zone_at(point); });
     render::fill_rect(image_, {x, y, 1, 1}, std::isfinite(value) ? colour_of(value, map_.scale) : kNoValue);
   }
 
@@ -173,6 +181,7 @@ class Drawing {
       }
     }
     // Labels last, so that no line runs through one; marks are drawn over all.
+    taken_.push_back({kLeft, kTop, render::text_width(map_.y_label, kText) + 14, kTextHeight + 14});
     for (const MapMark& mark : map_.marks) {
       const Point p = pixel(mark.at);
       taken_.push_back({static_cast<int>(p.x) - 12, static_cast<int>(p.y) - 20, 40, 34});
@@ -292,32 +301,6 @@ class Drawing {
 };
 
 }  // namespace
-
-MapScale map_scale(std::vector<double> values, double least_step) {
-  std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  MapScale scale{0.0, 4.0 * least_step, least_step};
-  if (values.empty()) {
-    return scale;
-  }
-  std::ranges::sort(values);
-  const std::size_t off = values.size() / 200;
-  const double low = values[off], high = values[values.size() - 1 - off];
-  constexpr double kMost = 24.0;
-  for (const double factor : {1.0, 2.0, 4.0, 10.0, 20.0, 40.0, 100.0, 1000.0}) {
-    scale.step = factor * least_step;
-    if ((high - low) / scale.step <= kMost) {
-      break;
-    }
-  }
-  constexpr double kSlack = 1e-6;  // of a step: a value on a line is not beyond it
-  scale.low = std::floor(low / scale.step + kSlack) * scale.step;
-  scale.high = std::ceil(high / scale.step - kSlack) * scale.step;
-  while (scale.high - scale.low < 3.5 * scale.step) {
-    scale.high += scale.step;
-    scale.low -= low >= 0.0 && scale.low - scale.step < -0.5 * scale.step ? 0.0 : scale.step;
-  }
-  return scale;
-}
 
 Image8 draw_map(const MapPicture& map) {
   return Drawing(map).finished();

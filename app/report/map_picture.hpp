@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/report/isolines.hpp"
+#include "app/report/map_scale.hpp"
 #include "render/image/image.hpp"
 
 namespace app {
@@ -29,14 +30,6 @@ struct MapStroke {
   glm::dvec2 at{0.0};
   double angle = 0.0;  // counter-clockwise from +x, radians
 };
-
-struct MapScale {
-  double low = 0.0, high = 1.0, step = 0.25;  // of the isolines
-};
-
-// Round numbers around the values (99 of 100 of them; the rest takes the end's colour), isolines `least_step` apart or,
-// where that would make more than about 24 of them, a rounder number of steps. At least four steps high.
-[[nodiscard]] MapScale map_scale(std::vector<double> values, double least_step);
 
 struct MapPicture {
   std::string title, note;  // the note stands under the title

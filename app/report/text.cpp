@@ -1,5 +1,6 @@
 #include "app/report/text.hpp"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -15,11 +16,14 @@ std::string without_sign_of_zero(std::string text) {
 }  // namespace
 
 std::string format(const char* pattern, ...) {
-  std::va_list arguments;
+  std::va_list arguments, again;
   va_start(arguments, pattern);
-  char text[512];
-  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
   va_end(arguments);
+  std::string text(static_cast<std::size_t>(std::max(length, 0)), ' ');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
   return text;
 }
 

@@ -6,7 +6,7 @@
 
 namespace app {
 
-// As printf does; a line of at most 511 characters.
+// As printf does.
 [[nodiscard, gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
 
 // "-" for none; signed_number has its + too, but a zero has no sign.

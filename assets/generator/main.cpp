@@ -42,9 +42,10 @@ void write_scenes(const std::string& folder, const std::string& models, const st
 
 int main(int argc, char** argv) {
   CLI::App app("Writes the reading room (glTF binary), scenes around models, and the example spectacles.");
-  std::string output, spectacles, models, scenes, font = VERGENCE_SERIF_FONT;
+  std::string output, spectacles, fine_net, models, scenes, font = VERGENCE_SERIF_FONT;
   app.add_option("--output", output, "where the scene goes, a .glb file");
   app.add_option("--spectacles", spectacles, "folder whose spectacles/ and lenses/ get the example files");
+  app.add_option("--fine-net", fine_net, "where the benchmark's pair of 100 x 100 control points goes, a .json file");
   app.add_option("--models", models, "folder with the models that fetch_scenes.sh converts");
   app.add_option("--scenes", scenes, "folder that gets the scenes around those models")->needs("--models");
   app.add_option("--font", font, "outline font with serifs, for texts and charts")->capture_default_str();
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
       const std::vector<std::uint8_t> bytes = assets::glb_bytes(assets::make_reading_room(font));
       write_file(output, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
+    if (!fine_net.empty()) write_file(fine_net, assets::fine_net_pair());
     if (!scenes.empty()) write_scenes(scenes, models, font);
     if (!spectacles.empty()) {
       for (const auto& [path, text] : assets::spectacles_files())

@@ -105,9 +105,9 @@ std::string pair_text(const std::string& name, const Json& right, const Json& le
 
 }  // namespace
 
-BsplineHeightField progressive_front_right() {
+BsplineHeightField progressive_front_right(std::size_t count) {
   const lenses::ProgressiveFamily surface;
-  return lenses::fit_height_field([&](double x, double y) { return surface.height(-x, y); }, 50, 0.035);
+  return lenses::fit_height_field([&](double x, double y) { return surface.height(-x, y); }, count, 0.035);
 }
 
 Json single_vision_lens(const SingleVision& order) {
@@ -146,6 +146,12 @@ std::map<std::string, std::string> spectacles_files() {
   files["spectacles/emmetropia.json"] = both("Plano", {});
   files["lenses/progressive_add200_right.json"] = text_of(progressive_lens(right, -1, 0.0, 0.0)) + "\n";
   return files;
+}
+
+std::string fine_net_pair() {
+  const BsplineHeightField right = progressive_front_right(100);
+  return pair_text("Progressive, plano, addition 2.00, 100 x 100 control points", progressive_lens(right, -1, 0.0, 0.0),
+                   progressive_lens(mirrored(right), 1, 0.0, 0.0));
 }
 
 }  // namespace assets

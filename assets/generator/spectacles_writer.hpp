@@ -9,8 +9,9 @@
 
 namespace assets {
 
-// The right lens's progressive front: the closed form in the wearer's axes (x mirrored), near zone toward -x.
-[[nodiscard]] lenses::BsplineHeightField progressive_front_right();
+// The right lens's progressive front: the closed form in the wearer's axes (x mirrored), near zone toward -x, fitted with
+// count x count control points.
+[[nodiscard]] lenses::BsplineHeightField progressive_front_right(std::size_t count = 50);
 
 // Lenses of single vision from their order (TABO), in the wearer's axes: back vertex power
 // F1 / (1 - t F1 / n) + F2 in both meridians is the order's.
@@ -23,5 +24,9 @@ struct SingleVision {
 
 // File contents by path relative to assets/.
 [[nodiscard]] std::map<std::string, std::string> spectacles_files();
+
+// The progressive pair with a back of a sphere again, its fronts of 100 x 100 control points: the benchmark's answer to
+// what a finer net costs.
+[[nodiscard]] std::string fine_net_pair();
 
 }  // namespace assets

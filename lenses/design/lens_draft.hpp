@@ -19,8 +19,9 @@ class LensDraft {
   // By the rule of the smallest radius.
   [[nodiscard]] double widest() const;
   void set_diameter(double diameter);
-  // A progressive surface made anew for the thickness that has been found, so that the base curve comes out as meant.
-  void renew();
+  // Makes a progressive surface anew for the thickness and the addition that came out, so that base curve and addition
+  // become what they are meant to be; false when there is nothing left to mend.
+  [[nodiscard]] bool renew();
   void set_conic_constant(double conic_constant);
 
   // Solves the surfaces for this thickness. Throws DesignError where there is no such lens.
@@ -32,9 +33,6 @@ class LensDraft {
   [[nodiscard]] WornSetup worn_setup() const;
   [[nodiscard]] const PointPower& ordered() const { return ordered_; }
 
-  // Round surfaces in their simplest form.
-  [[nodiscard]] Lens finished() const;
-
  private:
   [[nodiscard]] bool toric_front() const;
   [[nodiscard]] bool decentres() const { return request_.prism_by == PrismBy::decentration; }
@@ -45,7 +43,7 @@ class LensDraft {
   void solve_reading();
   void solve_worn();
   void solve_segment();
-  [[nodiscard]] double segment_addition() const;
+  [[nodiscard]] double read_addition() const;
 
   LensRequest request_;
   PointPower ordered_;    // thinning included
@@ -53,6 +51,8 @@ class LensDraft {
   double base_curve_;     // D
   double conic_constant_ = 0.0;
   double segment_curvature_ = 0.0;
+  double progressive_addition_ = 0.0;                                      // of the surface, D
+  double progressive_thickness_ = 0.0;                                     // that the surface was made for, m
   double progressive_diameter_ = std::numeric_limits<double>::infinity();  // of the net, m
   LensShape shape_;
   LensUnknowns unknowns_;

@@ -70,11 +70,11 @@ class LensMaker {
 
   // A thicker lens of plus power has a steeper back, a smaller one is thinner: the diameter by rule only ever shrinks.
   void settle_size() {
-    constexpr int kMostPasses = 60;
+    constexpr int kMostPasses = 60, kMostRenewals = 4;
     double diameter = asked_diameter();
     draft_.set_diameter(diameter);
     draft_.solve(request_.centre_thickness.value_or(rule_.minimum_centre));
-    bool renewed = request_.design != LensDesign::progressive;
+    int renewals = 0;
     for (int pass = 0; pass < kMostPasses; ++pass) {
       if (by_rule()) {
         diameter = narrower(diameter);
@@ -83,11 +83,9 @@ class LensMaker {
       if (!settle_thickness() || (by_rule() && draft_.widest() < diameter)) {
         continue;
       }
-      if (renewed) {
+      if (renewals++ == kMostRenewals || !draft_.renew()) {
         return;
       }
-      draft_.renew();
-      renewed = true;
     }
     refuse_reach();
   }
@@ -183,8 +181,10 @@ class LensMaker {
       return thin;
     }
     double thick = thin;
+    double missing_thin = missing;
     while (missing > 0.0) {
       thin = thick;
+      missing_thin = missing;
       thick += std::max(1.2 * missing, 1e-5);
       if (thick > kThickest) {
         throw DesignError(request_.outline.empty() ? "diameter_mm" : "outline",
@@ -197,8 +197,8 @@ class LensMaker {
     }
     const auto close = [](double a, double b) { return std::abs(b - a) < 1e-8; };  // m
     std::uintmax_t most = 60;
-    const auto found =
-        boost::math::tools::toms748_solve([this](double t) { return shortage(t); }, thin, thick, close, most);
+    const auto found = boost::math::tools::toms748_solve([this](double t) { return shortage(t); }, thin, thick,
+                                                         missing_thin, missing, close, most);
     thick = found.second;
     (void)shortage(thick);
     return thick;
@@ -210,6 +210,7 @@ class LensMaker {
     lens.fit = {.vertex_distance = lens.fit.vertex_distance};
     design::WornSetup setup = draft_.worn_setup();
     setup.reference_vertex = lens.fit.vertex_distance;
+    const design::WornLens before_the_eye(lens, setup);
     double sum = 0.0;
     int rays = 0;
     constexpr double kDegree = std::numbers::pi / 180.0;
@@ -218,7 +219,7 @@ class LensMaker {
         const double direction = k * 45.0 * kDegree;
         const glm::dvec3 gaze(std::sin(turn) * std::cos(direction), std::sin(turn) * std::sin(direction),
                               -std::cos(turn));
-        if (const auto worn = design::worn_power_along(lens, setup, gaze)) {
+        if (const auto worn = before_the_eye.along(gaze)) {
           const glm::dmat2 error = worn->power - draft_.ordered().power;
           sum += dot(error[0], error[0]) + dot(error[1], error[1]);
           ++rays;
@@ -248,20 +249,20 @@ class LensMaker {
 
   [[nodiscard]] DesignedLens report() const {
     DesignedLens result;
-    result.lens = draft_.finished();
+    result.lens = draft_.shape().lens();
     result.base_curve = draft_.base_curve();
     const Prescription& ordered = request_.prescription;
     const bool plus = ordered.cylinder > 0.0;
     const auto verification = draft_.verification();
     const auto worn = draft_.worn();
     const auto range = design::thickness_range(draft_.shape(), edge());
-    if (!verification || !worn || !range) {
-      throw DesignError("fit",
-                        "puts the lens where the eye does not see through it; less tilt, wrap or decentration "
-                        "are possible");
+    if (!verification || !range) {
+      refuse_reach();
     }
     result.verification = design::to_prescription(*verification, plus, ordered.addition);
-    result.worn = design::to_prescription(*worn, plus, ordered.addition);
+    if (worn) {
+      result.worn = design::to_prescription(*worn, plus, ordered.addition);
+    }
     result.thinnest_edge = range->thinnest_edge;
     result.thickest_edge = range->thickest_edge;
     result.volume = design::volume(draft_.shape(), edge());

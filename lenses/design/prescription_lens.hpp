@@ -2,15 +2,18 @@
 // behind the worn lens gets it.
 #pragma once
 
+#include <optional>
+
 #include "lenses/design/lens_request.hpp"
 #include "lenses/lens.hpp"
 
 namespace lenses {
 
 struct DesignedLens {
-  Lens lens;                                        // lens.order is set
-  Prescription verification;                        // what a lensmeter reads at the reference points
-  Prescription worn;                                // what the eye gets, referred to the refraction's vertex
+  Lens lens;                  // lens.order is set
+  Prescription verification;  // what a lensmeter reads at the reference points
+  // What the eye gets, referred to the refraction's vertex; none where it does not see through the lens in this fit.
+  std::optional<Prescription> worn;
   double base_curve = 0.0;                          // D
   double thinnest_edge = 0.0, thickest_edge = 0.0;  // m, over the outline
   double volume = 0.0;                              // m^3, within the outline

@@ -17,6 +17,9 @@ struct ProgressiveConfig {
   enum class Method { closed_form, variational };
   enum class Face { front, eye_side };
   static constexpr double kNetMargin = 0.003;  // m
+  // Of a surface, D: beyond what may be ordered, as through a strong lens a lensmeter reads not quite the surface's
+  // own.
+  static constexpr double kLeastAddition = 0.5, kMostAddition = 5.0;
   Method method = Method::variational;
   Face face = Face::front;  // which side of the lens carries the surface
   Side side = Side::right;

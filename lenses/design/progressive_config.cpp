@@ -32,8 +32,7 @@ void require(const char* field, double value, double lo, double hi, double unit,
 
 void ProgressiveConfig::validate() const {
   constexpr double kMm = 1e-3;
-  // A little beyond what may be ordered: a lensmeter reads not quite the surface's own addition.
-  require("addition", addition, 0.6, 3.8, 1.0, " D");
+  require("addition", addition, kLeastAddition, kMostAddition, 1.0, " D");
   require("corridor_length", corridor_length, 0.008, 0.018, kMm, " mm");
   require("inset", inset, 0.0, 0.005, kMm, " mm");
   require("hardness", hardness, 0.0, 1.0, 1.0, "");

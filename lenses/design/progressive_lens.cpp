@@ -48,7 +48,7 @@ class Maker {
   ProgressiveLens make() {
     constexpr int kMostRounds = 12;
     constexpr double kSettledAddition = 5e-4, kSettledThickness = 5e-6;  // D, m
-    shape_.set_thickness(request_.centre_thickness.value_or(request_.minimum_centre_thickness));
+    shape_.set_thickness(request_.centre_thickness.value_or(ample_thickness()));
     for (int round = 0; round < kMostRounds; ++round) {
       make_surfaces(round);
       const double missing = request_.addition - addition();
@@ -57,7 +57,7 @@ class Maker {
       const bool settled = request_.centre_thickness ? needed <= thickness + 2.0 * kSettledThickness
                                                      : std::abs(needed - thickness) <= kSettledThickness;
       if (!settled) change_thickness(needed);
-      config_.addition += missing;
+      correct_addition(missing);
       if (std::abs(missing) < kSettledAddition && settled) break;
     }
     if (progress_) progress_(1.0);
@@ -78,6 +78,14 @@ class Maker {
                              .near = request_.surface.near_point(),
                              .prism = glm::dvec2(0.0)};
     return lens;
+  }
+
+  // A plus lens with glass all over; too thin a first lens would be no lens at its edge.
+  [[nodiscard]] double ample_thickness() const {
+    const double power = std::max(0.0, request_.sphere + request_.addition), radius = 0.5 * config_.diameter;
+    return std::max(
+        request_.minimum_centre_thickness,
+        std::min(kThickest, request_.minimum_edge_thickness + 0.5 * power / (config_.index - 1.0) * radius * radius));
   }
 
   // Front vertex power of the thick lens: what the back has to bring to the ordered sphere.
@@ -145,6 +153,17 @@ class Maker {
       return mean(*reading);
     };
     return at(shape_.lens().reference_points.near) - at(shape_.lens().reference_points.distance);
+  }
+
+  void correct_addition(double missing) {
+    config_.addition += missing;
+    if (config_.addition >= ProgressiveConfig::kLeastAddition && config_.addition <= ProgressiveConfig::kMostAddition) {
+      return;
+    }
+    refuse("sphere", "of " + in_dioptres(request_.sphere) + " with a base curve of " + in_dioptres(base_curve_) +
+                         " is so oblique at the near point that no surface reads an addition of " +
+                         in_dioptres(request_.addition) + " there; less power, another base curve, a higher index or " +
+                         "a shorter corridor are possible");
   }
 
   [[noreturn]] void refuse_light() const {

@@ -10,7 +10,8 @@
 
 struct SurfaceHit {
   bool found;
-  bool ledge;  // not found, as the ray ends in the wall between a segment and its base, before t
+  bool ledge;      // not found, as the ray ends in the wall between a segment and its base, before t
+  bool unsettled;  // not found, and not searched for any longer (HURRIED)
   real t;
   SurfacePoint point;
 };
@@ -45,6 +46,7 @@ VG_FUNCTION SurfaceHit bracketed_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3
   SurfaceHit hit;
   hit.found = false;
   hit.ledge = false;
+  hit.unsettled = false;
   hit.t = real(0);
   vec2 from_axis = vec2(o.x, o.y);  // of the lens
   real reach = semi_diameter;
@@ -125,6 +127,7 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
   SurfaceHit hit;
   hit.found = false;
   hit.ledge = false;
+  hit.unsettled = false;
   bool sheet = false;
   real dd = real(1);
   if (IS_PLACED(s)) {
@@ -168,6 +171,11 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
     hit.found = true;
     return hit;
   }
+  if (HURRIED) {
+    hit.t = real(0);
+    hit.unsettled = true;
+    return hit;
+  }
   return bracketed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
 }
 
@@ -190,6 +198,12 @@ VG_FUNCTION SurfaceHit intersect_surface(TABLE_PARAM KINDS_PARAM SurfaceData s, 
   SurfaceHit hit = placed_hit(TABLE KINDS(kinds) s, o, d, semi_diameter);
   if (IS_SEGMENTED(s)) {
     SurfaceHit inner = placed_hit(TABLE KINDS(kinds) segment_surface(TABLE s), o, d, semi_diameter);
+    if (HURRIED && (hit.unsettled || inner.unsettled)) {
+      hit.t = real(0);
+      hit.found = false;
+      hit.unsettled = true;
+      return hit;
+    }
     bool hit_counts = hit.found && !in_segment(TABLE s, vec2(o.x + hit.t * d.x, o.y + hit.t * d.y));
     bool inner_counts = inner.found && in_segment(TABLE s, vec2(o.x + inner.t * d.x, o.y + inner.t * d.y));
     if (inner_counts && !(hit_counts && hit.t <= inner.t)) {

@@ -9,6 +9,8 @@
 // on to the functions that look at one surface: a device that takes both sides of a branch then evaluates no spline for
 // a spherical back. KIND_USED and IS_KIND ask inside such a function. Placement and segments have bits of their own, so
 // that lenses without them pay nothing.
+// MAY_CROSS: front and back of some lens may cross. HURRIED: a search that does not settle at once is given up as
+// kStatusUnsettled, so that the code for it is not compiled; such rays are few and traced again.
 
 #ifdef __cplusplus
 
@@ -22,6 +24,8 @@
 #define KIND_USED(k) true
 #define IS_KIND(s, k) ((s).kind.x == (k))
 #define LENS_USED true
+#define MAY_CROSS true
+#define HURRIED false
 
 #else
 
@@ -34,6 +38,10 @@
 #ifndef BACK_KINDS
 #define BACK_KINDS 0xffffffffu
 #define FRONT_KINDS 0xffffffffu
+#define MAY_CROSS true
+#endif
+#ifndef HURRIED
+#define HURRIED false
 #endif
 #define KINDS_PARAM uint kinds,
 #define KINDS(k) k,

@@ -6,13 +6,14 @@ const int kStatusMissFront = 2;
 const int kStatusTirFront = 3;
 const int kStatusInverted = 4;
 const int kStatusSingular = 5;
+const int kStatusUnsettled = 6;  // of a HURRIED trace alone
 
 struct LensData {
   vec4 axis_x;  // columns of the rotation eye_from_lens; w: the translation's components
   vec4 axis_y;
   vec4 axis_z;
   vec4 glass;   // index, centre thickness, half diameter, 1 if there is a lens at all
-  ivec4 mount;  // x: 1 if attached to the eye
+  ivec4 mount;  // x: 1 if attached to the eye, y: 1 if its surfaces may cross
   SurfaceData back;
   SurfaceData front;
 };
@@ -87,6 +88,7 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   if (!back.found || !within) {
     // In the wall of a ledge light is stopped as at the rim; only what passes beside the lens misses the back.
     path.status = back.ledge && within ? kStatusMissFront : kStatusMissBack;
+    path.status = back.unsettled ? kStatusUnsettled : path.status;
     return path;
   }
   path.back = back.point;
@@ -101,12 +103,14 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   // The front surface is met in its own vertex frame, where the thickness of a thin lens keeps its digits.
   path.status = kStatusInverted;
   vec3 o = vec3(p.x, p.y, back.point.z + lens.glass.y);
-  SurfacePoint above = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(p.x, p.y));
-  if (above.inside && !(o.z > above.z)) {
-    return path;
+  if (MAY_CROSS) {
+    SurfacePoint above = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(p.x, p.y));
+    if (above.inside && !(o.z > above.z)) {
+      return path;
+    }
   }
   SurfaceHit front = intersect_surface(TABLE KINDS(FRONT_KINDS) lens.front, o, path.direction_glass, semi_diameter);
-  path.status = kStatusMissFront;
+  path.status = front.unsettled ? kStatusUnsettled : kStatusMissFront;
   vec3 exit = o + front.t * path.direction_glass;
   if (!front.found || !(exit.x * exit.x + exit.y * exit.y <= semi_diameter * semi_diameter)) {
     return path;
@@ -128,4 +132,25 @@ VG_FUNCTION RayTransfer lens_transfer(LensData lens, LensPath path, vec3 e_h, ve
   m = refract_transfer(m, path.back, path.gamma_back, path.direction_glass, e1, e2);
   m = propagate_transfer(m, path.t_front / lens.glass.x);
   return refract_transfer(m, path.front, path.gamma_front, path.direction_object, e1, e2);
+}
+
+// The path of a ray that trace_lens has found to pass, followed again from its lengths in air and in glass (t_back,
+// t_front) without searching for the surfaces.
+VG_FUNCTION LensPath follow_lens(TABLE_PARAM LensData lens, vec3 start, vec3 direction, vec2 lengths) {
+  LensPath path;
+  path.status = kStatusOk;
+  path.start = start;
+  path.direction = direction;
+  path.t_back = lengths.x;
+  path.t_front = lengths.y;
+  path.back_hit = start + lengths.x * direction;
+  path.back = surface_point(TABLE KINDS(BACK_KINDS) lens.back, vec2(path.back_hit.x, path.back_hit.y));
+  bool transmitted = false;
+  path.gamma_back = refract_direction(direction, path.back.gradient, real(1), lens.glass.x, path.direction_glass, transmitted);
+  vec3 exit = vec3(path.back_hit.x, path.back_hit.y, path.back.z + lens.glass.y) + lengths.y * path.direction_glass;
+  path.front = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(exit.x, exit.y));
+  path.front_hit = vec3(exit.x, exit.y, exit.z - lens.glass.y);
+  path.gamma_front = refract_direction(path.direction_glass, path.front.gradient, lens.glass.x, real(1),
+                                       path.direction_object, transmitted);
+  return path;
 }

@@ -23,9 +23,8 @@ VG_FUNCTION vec3 turned_pupil(mat3 turn, real depth) {
   return centre - turn * centre;
 }
 
-// direction: unit, primary axes. A lens attached to the eye is traced in the turned eye's frame.
-VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, mat3 turn, vec3 direction,
-                                       vec2 pupil_offset, vec2 momentum) {
+// The line up to the lens, as if there were none. direction: unit, primary axes.
+VG_FUNCTION SightLine bare_sight_line(EyeData eye, mat3 turn, vec3 direction, vec2 pupil_offset, vec2 momentum) {
   SightLine line;
   line.status = kStatusOk;
   line.turn = turn;
@@ -37,27 +36,53 @@ VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, m
   line.e_v = turn * local_v;
   // A ray through another point of the pupil than its centre, for distributed rays (paper, section 6.2).
   line.direction = normalize(direction + momentum.x * line.e_h + momentum.y * line.e_v);
-  vec3 origin = line.pupil + pupil_offset.x * line.e_h + pupil_offset.y * line.e_v;
-  line.start = origin;
-  line.back_hit = origin;
+  line.start = line.pupil + pupil_offset.x * line.e_h + pupil_offset.y * line.e_v;
+  line.back_hit = line.start;
   line.direction_object = line.direction;
+  return line;
+}
+
+// What stands in for the eye's axes in front of the lens: a lens attached to the eye is traced in the turned eye's frame.
+VG_FUNCTION mat3 lens_frame(LensData lens, SightLine line) { return lens.mount.x == 1 ? line.turn : mat3(real(1)); }
+VG_FUNCTION vec3 lens_shift(LensData lens, SightLine line) {
+  return lens.mount.x == 1 ? line.pupil : vec3(real(0), real(0), real(0));
+}
+
+VG_FUNCTION SightLine beyond_lens(LensData lens, SightLine line, LensPath path) {
+  line.path = path;
+  line.status = path.status;
+  if (path.status == kStatusOk) {
+    mat3 frame = lens_frame(lens, line);
+    vec3 shift = lens_shift(lens, line);
+    line.back_hit = frame * from_lens_point(lens, path.back_hit) + shift;
+    line.start = frame * from_lens_point(lens, path.front_hit) + shift;
+    line.direction_object = frame * from_lens_direction(lens, path.direction_object);
+  }
+  return line;
+}
+
+VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, mat3 turn, vec3 direction,
+                                       vec2 pupil_offset, vec2 momentum) {
+  SightLine line = bare_sight_line(eye, turn, direction, pupil_offset, momentum);
   if (!LENS_USED || lens.glass.w == real(0)) {
     return line;
   }
-  bool on_eye = lens.mount.x == 1;
-  mat3 frame = on_eye ? turn : mat3(real(1));
-  vec3 shift = on_eye ? line.pupil : vec3(real(0), real(0), real(0));
-  mat3 back_frame = transpose(frame);
-  vec3 o = back_frame * (origin - shift);
-  vec3 d = back_frame * line.direction;
-  line.path = trace_lens(TABLE lens, to_lens_point(lens, o), to_lens_direction(lens, d));
-  line.status = line.path.status;
-  if (line.status == kStatusOk) {
-    line.back_hit = frame * from_lens_point(lens, line.path.back_hit) + shift;
-    line.start = frame * from_lens_point(lens, line.path.front_hit) + shift;
-    line.direction_object = frame * from_lens_direction(lens, line.path.direction_object);
+  mat3 to_frame = transpose(lens_frame(lens, line));
+  vec3 start = to_lens_point(lens, to_frame * (line.start - lens_shift(lens, line)));
+  LensPath path = trace_lens(TABLE lens, start, to_lens_direction(lens, to_frame * line.direction));
+  return beyond_lens(lens, line, path);
+}
+
+// The chief ray's line again where it is known to pass the lens with these lengths (follow_lens).
+VG_FUNCTION SightLine follow_sight_line(TABLE_PARAM LensData lens, EyeData eye, mat3 turn, vec3 direction, vec2 lengths) {
+  SightLine line = bare_sight_line(eye, turn, direction, vec2(real(0), real(0)), vec2(real(0), real(0)));
+  if (!LENS_USED || lens.glass.w == real(0)) {
+    return line;
   }
-  return line;
+  mat3 to_frame = transpose(lens_frame(lens, line));
+  vec3 start = to_lens_point(lens, to_frame * (line.start - lens_shift(lens, line)));
+  LensPath path = follow_lens(TABLE lens, start, to_lens_direction(lens, to_frame * line.direction), lengths);
+  return beyond_lens(lens, line, path);
 }
 
 // The ray-transfer matrix from the pupil plane to where the line starts into the scene.

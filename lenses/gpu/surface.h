@@ -11,14 +11,15 @@ const int kConic = 2;
 const int kTorus = 3;
 const int kBsplineHeightField = 4;
 const int kBsplineSurface = 5;
-const uint kShapeBits = 0x3fu;  // of KINDS: the shapes above
-const int kPlaced = 6;          // of KINDS: some surface is decentred, sloped or lifted
-const int kSegmented = 7;       // of KINDS: some surface has a segment
+const int kEvenBspline = 6;      // a height field whose cells are all of one size
+const uint kShapeBits = 0x7fu;   // of KINDS: the shapes above
+const int kPlaced = 7;           // of KINDS: some surface is placed
+const int kSegmented = 8;        // of KINDS: some surface has a segment
 
 const int kLookupSize = 32;  // inverse map of a parametric surface: kLookupSize^2 start values of (u, v)
 
 struct SurfaceData {
-  vec4 shape;    // curvature (torus: of the revolved direction), curvature of the profile, conic constant, 1/(scale of even terms)^2
+  vec4 shape;    // even spline: where its cells begin and 1/(their size), along u and v; else curvature (torus: of the revolved direction), curvature of the profile, conic constant, 1/(scale of even terms)^2
   vec4 frame;    // cosine and sine of the axis of the revolved direction; sag and curvature of the first guess
   vec4 domain;   // x0, x1, y0, y1 of a patch (parametric: of its bounding box)
   ivec4 kind;    // kind, number of even terms, cells along u, cells along v
@@ -168,6 +169,21 @@ VG_FUNCTION SurfacePoint bspline_height_point(TABLE_PARAM SurfaceData s, vec2 p)
   return point;
 }
 
+// The same where all cells are of one size: which one and where in it is known without a look at the breaks.
+VG_FUNCTION SurfacePoint even_bspline_point(TABLE_PARAM SurfaceData s, vec2 p) {
+  vec2 cell = vec2((p.x - s.shape.x) * s.shape.y, (p.y - s.shape.z) * s.shape.w);
+  int i = int(clamp(cell.x, real(0), real(s.kind.z - 1)));
+  int j = int(clamp(cell.y, real(0), real(s.kind.w - 1)));
+  CellValue value = cell_value(TABLE s.offset.x + 4 * (i * s.kind.w + j), cell.x - real(i), cell.y - real(j));
+  SurfacePoint point;
+  point.z = value.f;
+  point.gradient = vec2(value.d.x * s.shape.y, value.d.y * s.shape.w);
+  point.hessian =
+      vec3(value.dd.x * s.shape.y * s.shape.y, value.dd.y * s.shape.y * s.shape.w, value.dd.z * s.shape.w * s.shape.w);
+  point.inside = p.x >= s.domain.x && p.x <= s.domain.y && p.y >= s.domain.z && p.y <= s.domain.w;
+  return point;
+}
+
 // A parametric patch (u, v) -> (x, y, z) read as a height field: (u, v) is solved for by Newton's method from a
 // tabulated start; the chain rule turns derivatives by (u, v) into derivatives by (x, y).
 VG_FUNCTION SurfacePoint bspline_surface_point(TABLE_PARAM SurfaceData s, vec2 p) {
@@ -242,6 +258,9 @@ VG_FUNCTION SurfacePoint bspline_surface_point(TABLE_PARAM SurfaceData s, vec2 p
 
 // The surface's shape in its own axes.
 VG_FUNCTION SurfacePoint shape_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
+  if (IS_KIND(s, kEvenBspline)) {
+    return even_bspline_point(TABLE s, p);
+  }
   if (IS_KIND(s, kBsplineHeightField)) {
     return bspline_height_point(TABLE s, p);
   }

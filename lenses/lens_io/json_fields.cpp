@@ -70,7 +70,7 @@ void Field::require_object() const {
 void Field::refuse_unknown(Keys keys, Keys more, Keys unnamed) const {
   require_object();
   for (const auto& [key, unused] : value_->items()) {
-    const auto is_key = [&name = key](Keys list) { return std::find(list.begin(), list.end(), name) != list.end(); };
+    const auto is_key = [&key = key](Keys list) { return std::find(list.begin(), list.end(), key) != list.end(); };
     if (is_key(keys) || is_key(more) || is_key(unnamed) || is_annotation(key)) continue;
     std::string allowed;
     for (const Keys& list : {keys, more}) {

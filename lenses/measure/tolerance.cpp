@@ -34,7 +34,9 @@ const ToleranceStandard kStandards[]{
      .axis_from = 0.12,
      .addition = kAnsi2015Addition,
      .prism_pd = 0.33,
-     .prism_point_m = 1e-3},
+     .prism_point_m = 1e-3,
+     .imbalance_pd = 0.33,
+     .imbalance_point_m = 1e-3},
 };
 
 std::string letters_and_digits(std::string_view text) {
@@ -97,6 +99,10 @@ Check checked_prism(const ToleranceStandard& standard, const PointReading* point
   return check;
 }
 
+const Prescription& target_of(const Order& order) {
+  return order.compensated ? *order.compensated : order.ordered;
+}
+
 }  // namespace
 
 std::span<const ToleranceStandard> tolerance_standards() {
@@ -127,9 +133,27 @@ LensClass lens_class_of(const Lens& lens) {
   return lens.reference_points.near ? LensClass::progressive : LensClass::single_vision;
 }
 
+std::optional<Check> vertical_imbalance(const ToleranceStandard& standard, const LensReadings& readings,
+                                        const std::optional<Order>& order, const LensReadings& other,
+                                        const std::optional<Order>& other_order) {
+  const PointReading* here = readings.find(ReferencePoint::prism, LensSide::back);
+  const PointReading* there = other.find(ReferencePoint::prism, LensSide::back);
+  const auto read = [](const PointReading* point) {
+    return point != nullptr && point->reading.status == RayStatus::ok;
+  };
+  if (!order || !other_order || !read(here) || !read(there)) {
+    return std::nullopt;
+  }
+  const double target = prism_vector(target_of(*order).prism).y - prism_vector(target_of(*other_order).prism).y;
+  // Prentice's rule, in the weaker of the two vertical powers.
+  const double power = std::min(std::abs(here->reading.power.z), std::abs(there->reading.power.z));
+  const double limit = std::max(standard.imbalance_pd, 100.0 * standard.imbalance_point_m * power);
+  return checked("vertical imbalance", "pd", here->reading.prism.y - there->reading.prism.y, target, limit);
+}
+
 Verdict judge(const ToleranceStandard& standard, LensClass lens_class, const LensReadings& readings,
               const Order& order) {
-  const Prescription& target = order.compensated ? *order.compensated : order.ordered;
+  const Prescription& target = target_of(order);
   Verdict verdict{standard.name, lens_class, order.compensated.has_value(), {}};
   const auto kind = static_cast<std::size_t>(lens_class);
   const Refraction wanted =

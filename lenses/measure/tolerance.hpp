@@ -37,6 +37,8 @@ struct ToleranceStandard {
   std::span<const ToleranceBand> addition;  // by addition
   // At the prism point either the prism is right to within the first, or a point as near as the second has it.
   double prism_pd = 0.0, prism_point_m = 0.0;
+  // Of a mounted pair: the same for the difference of the lenses' vertical prisms.
+  double imbalance_pd = 0.0, imbalance_point_m = 0.0;
 };
 
 // The first is the default.
@@ -47,7 +49,7 @@ struct ToleranceStandard {
 [[nodiscard]] double tolerance_limit(std::span<const ToleranceBand> bands, double nominal);
 
 struct Check {
-  std::string tolerance;           // sphere, cylinder, axis, addition, prism
+  std::string tolerance;           // sphere, cylinder, axis, addition, prism, vertical imbalance
   std::string unit;                // D, deg, pd
   std::optional<double> measured;  // none: the lens has no point where it could be read
   double target = 0.0;
@@ -66,6 +68,12 @@ struct Verdict {
 
 // multifocal: a surface has a segment; progressive: it has none, but the lens has a near point.
 [[nodiscard]] LensClass lens_class_of(const Lens& lens);
+
+// Base up of this lens more than of the other, beside what their orders say. None where either has no order or no
+// reading.
+[[nodiscard]] std::optional<Check> vertical_imbalance(const ToleranceStandard& standard, const LensReadings& readings,
+                                                      const std::optional<Order>& order, const LensReadings& other,
+                                                      const std::optional<Order>& other_order);
 
 // Against the compensated power where the order has one.
 [[nodiscard]] Verdict judge(const ToleranceStandard& standard, LensClass lens_class, const LensReadings& readings,

@@ -60,17 +60,20 @@ void draw_vline(Image8& image, int x, int y, int length, int thickness, Rgb colo
 void draw_line(Image8& image, Point from, Point to, double thickness, Rgb colour) {
   const double dx = to.x - from.x, dy = to.y - from.y, length2 = dx * dx + dy * dy;
   if (!std::isfinite(length2)) return;
-  const double reach = 0.5 * thickness + 1.0;
-  // Clamped before they become integers: an end may lie anywhere.
-  const auto pixel = [](double at, int size) {
-    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size)));
-  };
-  const int x0 = pixel(std::min(from.x, to.x) - reach, image.width);
-  const int x1 = pixel(std::max(from.x, to.x) + reach + 1.0, image.width);
-  const int y0 = pixel(std::min(from.y, to.y) - reach, image.height);
-  const int y1 = pixel(std::max(from.y, to.y) + reach + 1.0, image.height);
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) {
+  // Along the longer side, at each pixel only as far across as the line is thick.
+  const bool level = std::abs(dx) >= std::abs(dy);
+  const double reach = 0.5 * thickness + 1.0, slope = length2 > 0.0 ? (level ? dy / dx : dx / dy) : 0.0;
+  const auto pixel = [](double at, int size) { return static_cast<int>(std::clamp(at, 0.0, double(size))); };
+  const double low = level ? std::min(from.x, to.x) : std::min(from.y, to.y);
+  const double high = level ? std::max(from.x, to.x) : std::max(from.y, to.y);
+  const int along_size = level ? image.width : image.height, across_size = level ? image.height : image.width;
+  const int last = pixel(high + reach + 1.0, along_size);
+  for (int i = pixel(low - reach, along_size); i < last; ++i) {
+    const double on_line = std::clamp(i + 0.5, low, high);
+    const double middle = level ? from.y + slope * (on_line - from.x) : from.x + slope * (on_line - from.y);
+    const int end = pixel(middle + 1.5 * reach + 1.0, across_size);
+    for (int k = pixel(middle - 1.5 * reach, across_size); k < end; ++k) {
+      const int x = level ? i : k, y = level ? k : i;
       const double px = x + 0.5 - from.x, py = y + 0.5 - from.y;
       const double along = length2 > 0.0 ? std::clamp((px * dx + py * dy) / length2, 0.0, 1.0) : 0.0;
       const double away = std::hypot(px - along * dx, py - along * dy);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/scene/binary_bvh.hpp"
+#include "render/scene/bvh8.hpp"
 #include "render/scene/bvh_collapse.hpp"
 #include "render/scene/gpu/bvh_layout.h"
 #include "tracking/input_error.hpp"
@@ -53,7 +54,7 @@ Box box_of(const Corner& c) {
 
 }  // namespace
 
-Bvh4 build_bvh4(const Scene& scene) {
+SceneBvh build_scene_bvh(const Scene& scene) {
   std::vector<std::uint32_t> kept;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -72,7 +73,8 @@ Bvh4 build_bvh4(const Scene& scene) {
   }
 
   const BinaryBvh binary = build_binary_bvh(boxes, kLeafTriangles, 2 * kBvhMaxDepth);
-  Bvh4 bvh = collapse_to_four(binary);
+  SceneBvh both{collapse_to_four(binary), collapse_to_eight(binary)};
+  Bvh4& bvh = both.four;
   bvh.triangles.reserve(kept.size() * kBvhTriangleTexels);
   for (const std::uint32_t place : binary.order) {
     const std::uint32_t triangle = kept[place];
@@ -81,7 +83,11 @@ Bvh4 build_bvh4(const Scene& scene) {
     bvh.triangles.emplace_back(c.e1, std::bit_cast<float>(triangle));
     bvh.triangles.emplace_back(c.e2, std::bit_cast<float>(flags_of(scene, triangle)));
   }
-  return bvh;
+  return both;
+}
+
+Bvh4 build_bvh4(const Scene& scene) {
+  return build_scene_bvh(scene).four;
 }
 
 std::vector<ShadingTriangle> shading_triangles(const Scene& scene, const Bvh4& bvh) {

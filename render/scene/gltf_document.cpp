@@ -164,6 +164,22 @@ json parse_json(const std::string& file, std::string_view text) {
   }
 }
 
+// Before anything else is found wrong with a file of another version. glTF 2.0, section 3.2: what a minor version adds
+// may be passed over unless minVersion asks for it.
+void check_version(const std::string& file, const json& root) {
+  const auto asset = root.find("asset");
+  if (!root.is_object() || asset == root.end() || !asset->is_object()) return;  // the shape's check says so
+  for (const char* name : {"version", "minVersion"}) {
+    const auto version = asset->find(name);
+    if (version == asset->end() || !version->is_string()) continue;
+    const auto& text = version->get_ref<const std::string&>();
+    const bool is_two = text == "2" || text.starts_with("2.");
+    if (!is_two || (name == std::string_view("minVersion") && text.starts_with("2.") && text != "2.0")) {
+      throw tracking::InputError(file, std::string("asset.") + name, "is " + one_line(text) + "; glTF 2.0 is allowed");
+    }
+  }
+}
+
 void check_extensions(const std::string& file, const json& root) {
   const json required = root.value("extensionsRequired", json::array());
   for (std::size_t i = 0; i < required.size(); ++i) {
@@ -291,6 +307,7 @@ GltfDocument load_gltf_document(const std::string& path) {
   const json root =
       parse_json(path, binary ? json_chunk(path, bytes)
                               : std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  check_version(path, root);
   check_gltf_shape(root, path);
   check_extensions(path, root);
   check_buffers(document, root, binary);

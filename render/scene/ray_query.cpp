@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "render/scene/cut_out.hpp"
 #include "render/scene/embree_device.hpp"
 
 namespace render {
@@ -17,14 +18,27 @@ struct RayQuery::State {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;
   std::vector<bool> single_sided, clear;  // of each triangle
+  std::vector<std::uint32_t> cut_out;     // those of cut-out materials, ascending
+  std::optional<CutOuts> holes;           // in cut_out's order
 
-  [[nodiscard]] bool is_passed(const glm::dvec3& direction, std::uint32_t triangle) const {
-    if (clear[triangle]) return true;
+  [[nodiscard]] bool is_hole(std::uint32_t triangle, float u, float v) const {
+    const auto found = std::ranges::lower_bound(cut_out, triangle);
+    return found != cut_out.end() && *found == triangle &&
+           holes->is_hole(static_cast<std::uint32_t>(found - cut_out.begin()), u, v);
+  }
+
+  // hit: of a unit direction.
+  [[nodiscard]] bool is_passed(const glm::dvec3& direction, const RTCHit& hit) const {
+    const std::uint32_t triangle = hit.primID;
+    if (clear[triangle] || is_hole(triangle, hit.u, hit.v)) return true;
     const glm::uvec3 index = triangles[triangle];
     const glm::dvec3 v0(positions[index.x]);
     const glm::dvec3 normal = glm::cross(glm::dvec3(positions[index.y]) - v0, glm::dvec3(positions[index.z]) - v0);
     return single_sided[triangle] && glm::dot(normal, direction) > 0.0;
   }
+
+  // The first hit from either side.
+  [[nodiscard]] std::optional<RTCRayHit> closest(const glm::dvec3& origin, const glm::dvec3& unit) const;
 
   // Distance along a unit direction to the triangle's plane, in double precision: Embree's float distance is only good
   // to 1e-7 of the coordinates. Its own value where the ray lies almost in the plane.
@@ -45,11 +59,13 @@ RayQuery::RayQuery(const Scene& scene) : state_(std::make_unique<State>()) {
   s.positions.reserve(scene.vertices.size());
   for (const Vertex& vertex : scene.vertices) s.positions.push_back(vertex.position);
   s.triangles = scene.triangles;
-  for (const std::uint32_t index : scene.triangle_material) {
-    const Material& material = scene.materials.at(index);
+  for (std::size_t i = 0; i < scene.triangle_material.size(); ++i) {
+    const Material& material = scene.materials.at(scene.triangle_material[i]);
+    if (material.alpha == Material::Alpha::mask) s.cut_out.push_back(static_cast<std::uint32_t>(i));
     s.single_sided.push_back(!material.double_sided);
     s.clear.push_back(material.alpha == Material::Alpha::blend && material.base_colour.a < 0.5F);
   }
+  s.holes.emplace(scene, s.cut_out);
   s.device = make_embree_device();
   s.scene.reset(rtcNewScene(s.device.get()));
   rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -72,12 +88,10 @@ RayQuery::~RayQuery() = default;
 RayQuery::RayQuery(RayQuery&&) noexcept = default;
 RayQuery& RayQuery::operator=(RayQuery&&) noexcept = default;
 
-std::optional<RayQuery::Hit> RayQuery::closest(glm::dvec3 origin, glm::dvec3 direction) const {
-  const double length = glm::length(direction);
-  const glm::dvec3 unit = direction / length;
+std::optional<RTCRayHit> RayQuery::State::closest(const glm::dvec3& origin, const glm::dvec3& unit) const {
   // Embree's coordinates end at 1.8e18.
   const bool near = std::abs(origin.x) < 1e18 && std::abs(origin.y) < 1e18 && std::abs(origin.z) < 1e18;
-  if (!near || !std::isfinite(length) || !std::isfinite(unit.x + unit.y + unit.z)) return std::nullopt;
+  if (!near || !(glm::dot(unit, unit) > 0.5)) return std::nullopt;  // no direction, or too long a one
   const glm::vec3 o(origin), d(unit);
   RTCRayHit ray{};
   ray.ray.org_x = o.x;
@@ -89,10 +103,16 @@ std::optional<RayQuery::Hit> RayQuery::closest(glm::dvec3 origin, glm::dvec3 dir
   ray.ray.tfar = std::numeric_limits<float>::infinity();
   ray.ray.mask = 0xFFFFFFFFU;
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  intersect_one(state_->scene.get(), ray);
+  intersect_one(scene.get(), ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  const double distance = state_->refine(origin, unit, ray.hit.primID, static_cast<double>(ray.ray.tfar));
-  return Hit{distance, ray.hit.primID};
+  return ray;
+}
+
+std::optional<RayQuery::Hit> RayQuery::closest(glm::dvec3 origin, glm::dvec3 direction) const {
+  const glm::dvec3 unit = direction / glm::length(direction);
+  const auto ray = state_->closest(origin, unit);
+  if (!ray) return std::nullopt;
+  return Hit{state_->refine(origin, unit, ray->hit.primID, static_cast<double>(ray->ray.tfar)), ray->hit.primID};
 }
 
 std::optional<RayQuery::Hit> RayQuery::looked_at(glm::dvec3 origin, glm::dvec3 direction) const {
@@ -100,15 +120,13 @@ std::optional<RayQuery::Hit> RayQuery::looked_at(glm::dvec3 origin, glm::dvec3 d
   double before = 0.0;
   const glm::dvec3 unit = direction / glm::length(direction);
   for (int i = 0; i < kMostPassed; ++i) {
-    std::optional<Hit> hit = closest(origin, direction);
-    if (!hit) return std::nullopt;
-    if (!state_->is_passed(unit, hit->triangle)) {
-      hit->distance += before;
-      return hit;
-    }
+    const auto ray = state_->closest(origin, unit);
+    if (!ray) return std::nullopt;
+    const double distance = state_->refine(origin, unit, ray->hit.primID, static_cast<double>(ray->ray.tfar));
+    if (!state_->is_passed(unit, ray->hit)) return Hit{before + distance, ray->hit.primID};
     // On by more than the rounding of Embree's coordinates.
-    const glm::dvec3 at = origin + hit->distance * unit;
-    const double on = hit->distance + 1e-5 + 2e-6 * std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+    const glm::dvec3 at = origin + distance * unit;
+    const double on = distance + 1e-5 + 2e-6 * std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
     origin += on * unit;
     before += on;
   }

@@ -30,7 +30,7 @@ class RayQuery {
   [[nodiscard]] std::optional<Hit> closest(glm::dvec3 origin, glm::dvec3 direction) const;
 
   // The same for an eye that looks: past the backs of single-sided triangles and past what blends with less than half
-  // of the light behind it. Holes of cut-out textures are not looked through.
+  // of the light behind it, and through holes of cut-out ones.
   [[nodiscard]] std::optional<Hit> looked_at(glm::dvec3 origin, glm::dvec3 direction) const;
 
  private:

@@ -41,23 +41,24 @@ vec2 transformed(vec2 uv, int slot, uint material) {
   if (!HAS(kFeatureTransform)) {
     return uv;
   }
-  vec4 linear = materials[material].uv_linear[slot];
-  return vec2(linear.x * uv.x + linear.z * uv.y, linear.y * uv.x + linear.w * uv.y) + materials[material].uv_offset[slot].xy;
+  vec4 linear = material_part(material, kMaterialUvLinearAt + slot);
+  vec2 offset = material_part(material, kMaterialUvOffsetAt + slot).xy;
+  return vec2(linear.x * uv.x + linear.z * uv.y, linear.y * uv.x + linear.w * uv.y) + offset;
 }
 
 bool on_second_uv(uint material, int slot) {
-  return HAS(kFeatureSecondUv) && ((materials[material].flags.y >> slot) & 1) != 0;
+  return HAS(kFeatureSecondUv) && ((material_indices(material, kMaterialFlagsAt).y >> slot) & 1) != 0;
 }
 
 // u, v: barycentric weights of corners 1 and 2. Alpha comes from the texture's finest level.
 float hit_alpha(uint triangle, uint material, float u, float v) {
   float w = 1.0 - u - v;
-  float alpha = materials[material].base_colour.a;
+  float alpha = material_part(material, kMaterialBaseColourAt).a;
   if (HAS(kFeatureSecondUv | kFeatureColours)) {
     MoreCorners more = more_corners_of(triangle);
     alpha *= w * more.colour[0].a + u * more.colour[1].a + v * more.colour[2].a;
   }
-  int plane = materials[material].flags.z;
+  int plane = material_indices(material, kMaterialFlagsAt).z;
   if (plane >= 0) {
     Corners k = corners_of(triangle);
     vec2 uv = vec2(w * k.a.w + u * k.b.w + v * k.c.w, w * k.v.x + u * k.v.y + v * k.v.z);
@@ -65,7 +66,7 @@ float hit_alpha(uint triangle, uint material, float u, float v) {
       MoreCorners more = more_corners_of(triangle);
       uv = w * more.uv[0] + u * more.uv[1] + v * more.uv[2];
     }
-    alpha *= sample_level(textures[plane].size, 0, transformed(uv, kSlotBaseColour, material), kTexelAlpha).x;
+    alpha *= sample_level(texture_size(plane), 0, transformed(uv, kSlotBaseColour, material), kTexelAlpha).x;
   }
   return alpha;
 }
@@ -82,7 +83,7 @@ bool ray_meets(uint flags, bool front, uint triangle, uint material, float u, fl
   }
   if (HAS(kFeatureMask)) {
     if (meets && (flags & kBvhCutOut) != 0u) {
-      meets = hit_alpha(triangle, material, u, v) >= materials[material].surface.w;
+      meets = hit_alpha(triangle, material, u, v) >= material_part(material, kMaterialSurfaceAt).w;
     }
   }
   return meets;

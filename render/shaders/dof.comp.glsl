@@ -46,7 +46,7 @@ vec2 to_disc(vec2 square) {
 
 void main() {
   ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-  int eye = int(gl_GlobalInvocationID.z);
+  int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }

@@ -9,12 +9,15 @@ const int kModeAstigmatism = 4;
 const int kModeAccommodation = 5;
 const int kModeBlur = 6;
 
-// 64 bytes of push constants, the same for every kernel of a frame.
+// 80 bytes of push constants, the same for every kernel of a frame.
 struct FrameData {
   ivec4 size;      // width, height, views, mode
   ivec4 sampling;  // index of this sample (dof), samples so far, seed, colour map
   vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor, -
   vec4 map_range;  // low, high, unit factor, -
+  // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
+  // one load for all invocations of a software device, what anything else selects is one for each.
+  ivec4 view;
 };
 
 // A traced pixel, 16 bytes: radiance and the blur ellipse as half floats, the depth beside them.
@@ -24,3 +27,10 @@ struct FrameData {
 
 // A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
 const int kWavefrontTexels = 2;
+
+// A list of pixels: how many workgroups x, y, z go through it (vkCmdDispatchIndirect), how many items there are, the
+// items. list.glsl appends.
+const uint kListGroup = 64u;       // items of a workgroup
+const uint kListMostGroups = 65535u;
+const uint kListCountAt = 3u;
+const uint kListFirstAt = 4u;

@@ -89,9 +89,41 @@ Beam pixel_beam(ViewData view, PixelRay ray) {
   return beam;
 }
 
-// The layers along the ray, front to back; what blends lets the rest through. Depth, normal and material are those of
-// the layer that the eye sees most of: the first with more than half of the light in front of its back.
-void trace_scene(ViewData view, inout PixelRay ray, vec3 origin, vec3 towards) {
+// A ray that goes on into the scene: m, world; direction of unit length.
+struct SceneRay {
+  vec3 origin;
+  vec3 direction;
+};
+
+SceneRay scene_ray(ViewData view, PixelRay ray) {
+  return SceneRay(world_point(view, ray.line.start), normalize(world_direction(view, ray.line.direction_object)));
+}
+
+// A ray before it has met anything: a rim's is complete.
+PixelRay unseen_ray(SightLine line) {
+  PixelRay ray;
+  ray.line = line;
+  ray.status = line.status;
+  ray.normal = vec3(0.0);
+  ray.material = 0xffffu;
+  ray.radiance = kRimRadiance;
+  ray.depth = -1.0;
+  ray.transfer = free_flight(0.0);
+  return ray;
+}
+
+PixelRay aim_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
+  mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
+  return unseen_ray(trace_sight_line(view.lens, view.eye, turn, direction, pupil_offset, momentum));
+}
+
+// Completes a ray that is no rim: the layers along it, front to back; what blends lets the rest through. Depth, normal
+// and material are those of the layer that the eye sees most of: the first with more than half of the light in front of
+// its back. `met` and `hit`: what the first layer is.
+void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool met, Hit hit) {
+  if (ray.status == kStatusOk) {
+    ray.transfer = sight_line_transfer(view.lens, ray.line);
+  }
   Beam beam;
   if (HAS(kFeatureTexture)) {
     beam = pixel_beam(view, ray);
@@ -103,8 +135,6 @@ void trace_scene(ViewData view, inout PixelRay ray, vec3 origin, vec3 towards) {
   uint first_material = 0u;
   const int layers = HAS(kFeatureBlend) ? kMostLayers : 1;
   for (int layer = 0; layer < layers; ++layer) {
-    Hit hit;
-    bool met = trace_closest(origin, towards, 1e30, hit);
     Surface surface;
     surface.radiance = vec3(0.0);
     surface.normal = vec3(0.0);
@@ -117,9 +147,9 @@ void trace_scene(ViewData view, inout PixelRay ray, vec3 origin, vec3 towards) {
         footprint.across = beam.start.across + depth * beam.growth.across;
         footprint.up = beam.start.up + depth * beam.growth.up;
       }
-      surface = shade_hit(hit, origin, towards, footprint);
+      surface = shade_hit(hit, beyond.origin, beyond.direction, footprint);
     } else {
-      surface.radiance = sky_radiance(towards);
+      surface.radiance = sky_radiance(beyond.direction);
     }
     bool last = layer + 1 == layers || surface.alpha >= 1.0;
     float share = last ? through : through * surface.alpha;
@@ -138,35 +168,28 @@ void trace_scene(ViewData view, inout PixelRay ray, vec3 origin, vec3 towards) {
       break;
     }
     first_material = layer == 0 ? hit.material : first_material;
-    float on = hit.t + lift(origin + hit.t * towards);
-    origin += on * towards;
+    float on = hit.t + lift(beyond.origin + hit.t * beyond.direction);
+    beyond.origin += on * beyond.direction;
     before += on;
+    met = trace_closest(beyond.origin, beyond.direction, kFarthest, hit);
   }
   ray.radiance = radiance;
-}
-
-PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
-  PixelRay ray;
-  mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
-  ray.line = trace_sight_line(view.lens, view.eye, turn, direction, pupil_offset, momentum);
-  ray.status = ray.line.status;
-  ray.normal = vec3(0.0);
-  ray.material = 0xffffu;
-  ray.radiance = kRimRadiance;
-  ray.depth = -1.0;
-  if (shows_rim(ray.status)) {
-    return ray;
-  }
-  ray.transfer = free_flight(0.0);
-  if (ray.status == kStatusOk) {
-    ray.transfer = sight_line_transfer(view.lens, ray.line);
-  }
-  trace_scene(view, ray, world_point(view, ray.line.start), normalize(world_direction(view, ray.line.direction_object)));
   if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
     ray.radiance *= view.tint.rgb;
   }
   // Half floats end at 65504; nothing may leave as an infinity.
   ray.radiance = clamp(ray.radiance, vec3(0.0), vec3(65000.0));
+}
+
+PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
+  PixelRay ray = aim_pixel(view, direction, pupil_offset, momentum);
+  if (shows_rim(ray.status)) {
+    return ray;
+  }
+  SceneRay beyond = scene_ray(view, ray);
+  Hit hit;
+  bool met = trace_closest(beyond.origin, beyond.direction, kFarthest, hit);
+  see(view, ray, beyond, met, hit);
   return ray;
 }
 

@@ -130,7 +130,7 @@ vec3 mapped_normal(vec3 normal, SlotUv uv, vec3 e1, vec3 e2, vec3 texel, float s
 }
 
 Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
-  MaterialData material = materials[hit.material];
+  ivec4 flags = material_indices(hit.material, kMaterialFlagsAt);
   Corners k = corners_of(hit.triangle);
   float w = 1.0 - hit.u - hit.v;
   int triangle = int(hit.triangle * kBvhTriangleTexels);
@@ -138,13 +138,20 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
   vec3 e2 = texelFetch(bvh_triangles, triangle + 2).xyz;
   vec3 face = normalize(cross(e1, e2));
   vec3 normal = normalize(w * k.a.xyz + hit.u * k.b.xyz + hit.v * k.c.xyz);
-  vec4 base = material.base_colour;
-  vec3 emission = material.emission.rgb;
-  float metallic = material.surface.x;
-  float roughness = material.surface.y;
+  vec4 base = material_part(hit.material, kMaterialBaseColourAt);
+  vec3 emission = material_part(hit.material, kMaterialEmissionAt).rgb;
+  float metallic = 0.0;
+  float roughness = 1.0;
+  if (HAS(kFeatureShiny)) {
+    vec2 factors = material_part(hit.material, kMaterialSurfaceAt).xy;
+    metallic = factors.x;
+    roughness = factors.y;
+  }
   float open = 1.0;  // to the light from everywhere
+  ivec4 maps = ivec4(-1);
   HitUv uv;
   if (HAS(kFeatureTexture)) {
+    maps = material_indices(hit.material, kMaterialTexturesAt);
     uv.edge1[0] = vec2(k.b.w - k.a.w, k.v.y - k.v.x);
     uv.edge2[0] = vec2(k.c.w - k.a.w, k.v.z - k.v.x);
     uv.at[0] = vec2(w * k.a.w + hit.u * k.b.w + hit.v * k.c.w, w * k.v.x + hit.u * k.v.y + hit.v * k.v.z);
@@ -159,34 +166,34 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
     base *= w * more.colour[0] + hit.u * more.colour[1] + hit.v * more.colour[2];
   }
   if (HAS(kFeatureTexture)) {
-    if (material.textures.x >= 0) {
-      base.rgb *= slot_texture(uv, kSlotBaseColour, hit.material, material.textures.x, kTexelColour);
+    if (maps.x >= 0) {
+      base.rgb *= slot_texture(uv, kSlotBaseColour, hit.material, maps.x, kTexelColour);
     }
   }
   if (HAS(kFeatureEmission)) {
-    if (material.textures.y >= 0) {
-      emission *= slot_texture(uv, kSlotEmission, hit.material, material.textures.y, kTexelColour);
+    if (maps.y >= 0) {
+      emission *= slot_texture(uv, kSlotEmission, hit.material, maps.y, kTexelColour);
     }
   }
   if (HAS(kFeatureBlend)) {
-    if (material.flags.z >= 0) {
-      base.a *= slot_texture(uv, kSlotBaseColour, hit.material, material.flags.z, kTexelAlpha).x;
+    if (flags.z >= 0) {
+      base.a *= slot_texture(uv, kSlotBaseColour, hit.material, flags.z, kTexelAlpha).x;
     }
   }
   if (HAS(kFeatureMaps)) {
-    if (material.textures.z >= 0) {
-      vec3 texel = slot_texture(uv, kSlotSurface, hit.material, material.textures.z, kTexelData);
+    if (maps.z >= 0) {
+      vec3 texel = slot_texture(uv, kSlotSurface, hit.material, maps.z, kTexelData);
       roughness *= texel.g;
       metallic *= texel.b;
     }
-    if (material.flags.w >= 0) {
-      float texel = slot_texture(uv, kSlotOcclusion, hit.material, material.flags.w, kTexelData).r;
-      open = 1.0 + material.maps.y * (texel - 1.0);
+    if (flags.w >= 0) {
+      float texel = slot_texture(uv, kSlotOcclusion, hit.material, flags.w, kTexelData).r;
+      open = 1.0 + material_part(hit.material, kMaterialMapsAt).y * (texel - 1.0);
     }
-    if (material.textures.w >= 0) {
+    if (maps.w >= 0) {
       SlotUv at = slot_uv(uv, kSlotNormal, hit.material);
-      vec3 texel = sample_texture(material.textures.w, at.at, at.footprint, kTexelData);
-      normal = mapped_normal(normal, at, e1, e2, texel, material.maps.x);
+      vec3 texel = sample_texture(maps.w, at.at, at.footprint, kTexelData);
+      normal = mapped_normal(normal, at, e1, e2, texel, material_part(hit.material, kMaterialMapsAt).x);
     }
   }
   float side = dot(face, direction) > 0.0 ? -1.0 : 1.0;
@@ -194,14 +201,14 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
   normal *= dot(normal, face) < 0.0 ? -1.0 : 1.0;
   Surface surface;
   surface.normal = face;
-  surface.alpha = HAS(kFeatureBlend) && (material.flags.x & kMaterialBlends) != 0 ? clamp(base.a, 0.0, 1.0) : 1.0;
+  surface.alpha = HAS(kFeatureBlend) && (flags.x & kMaterialBlends) != 0 ? clamp(base.a, 0.0, 1.0) : 1.0;
   if (HAS(kFeatureUnlit)) {
-    if ((material.flags.x & kMaterialUnlit) != 0) {
+    if ((flags.x & kMaterialUnlit) != 0) {
       surface.radiance = base.rgb;
       return surface;
     }
   }
-  bool matte = !HAS(kFeatureShiny) || (material.flags.x & kMaterialMatte) != 0;
+  bool matte = !HAS(kFeatureShiny) || (flags.x & kMaterialMatte) != 0;
   vec3 p = origin + hit.t * direction;
   vec3 lifted = p + face * lift(p);
   Brdf brdf;
@@ -222,7 +229,7 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
       towards = reflect(direction, normal);
       arriving = open * (1.0 - brdf.roughness) * brdf.specular * (sky_radiance(towards) - environment.ambient.rgb);
     } else {
-      arriving = light_at(lights[i], lifted, towards, reach);
+      arriving = light_at(light_data(i), lifted, towards, reach);
       arriving *= matte ? vec3(max(dot(normal, towards), 0.0)) : reflected(brdf, normal, -direction, towards);
     }
     vec3 size = abs(arriving);

@@ -4,22 +4,17 @@
 const int kMostProbes = 4;
 
 vec3 rgb9e5(uint packed) {
-  float scale = exp2(float(packed >> 27) - 24.0);
+  float scale = uintBitsToFloat(((packed >> 27) + 103u) << 23);  // 2^(exponent - 24)
   return vec3(float(packed & 511u), float((packed >> 9) & 511u), float((packed >> 18) & 511u)) * scale;
 }
 
-int wrapped(int i, int n, int mode) {
-  if (mode == 1) {
-    return clamp(i, 0, n - 1);
-  }
-  if (mode == 2) {
-    int period = 2 * n;
-    int j = i % period;
-    j = j < 0 ? j + period : j;
-    return j < n ? j : period - 1 - j;
-  }
-  int j = i % n;
-  return j < 0 ? j + n : j;
+// i: a whole number below 1e7, so that floats are exact but for the quotient, whose rounding the clamp catches. Integer
+// division has no vector form on CPUs.
+int wrapped(float i, float n, int mode) {
+  float period = mode == 2 ? 2.0 * n : n;
+  float j = i - period * floor(i / period);
+  j = mode == 2 && j >= n ? period - 1.0 - j : j;
+  return int(clamp(mode == 1 ? i : j, 0.0, n - 1.0));
 }
 
 vec3 texel_at(int first, int i, int format) {
@@ -34,14 +29,15 @@ vec3 sample_level(ivec4 t, int level, vec2 uv, int format) {
   int width = max(t.y >> level, 1);
   int height = max(t.z >> level, 1);
   int first = level == 0 ? t.x + kTextureHeader : t.x + int(texelFetch(texels, t.x + level).x);
-  vec2 p = uv * vec2(float(width), float(height)) - 0.5;
+  vec2 size = vec2(float(width), float(height));
+  vec2 p = uv * size - 0.5;
   vec2 corner = floor(p);
   vec2 w = p - corner;
-  ivec2 low = ivec2(clamp(corner, vec2(-1e8), vec2(1e8)));
-  int x0 = wrapped(low.x, width, t.w & 255);
-  int x1 = wrapped(low.x + 1, width, t.w & 255);
-  int y0 = wrapped(low.y, height, (t.w >> 8) & 255) * width;
-  int y1 = wrapped(low.y + 1, height, (t.w >> 8) & 255) * width;
+  vec2 low = clamp(corner, vec2(-1e7), vec2(1e7));
+  int x0 = wrapped(low.x, size.x, t.w & 255);
+  int x1 = wrapped(low.x + 1.0, size.x, t.w & 255);
+  int y0 = wrapped(low.y, size.y, (t.w >> 8) & 255) * width;
+  int y1 = wrapped(low.y + 1.0, size.y, (t.w >> 8) & 255) * width;
   vec3 top = mix(texel_at(first, y0 + x0, format), texel_at(first, y0 + x1, format), w.x);
   vec3 bottom = mix(texel_at(first, y1 + x0, format), texel_at(first, y1 + x1, format), w.x);
   return mix(top, bottom, w.y);
@@ -55,7 +51,7 @@ struct UvFootprint {
 
 // The footprint's ellipse in texels, as its axes: principal axes of G G^T, G = (across, up).
 vec3 sample_texture(int index, vec2 uv, UvFootprint footprint, int format) {
-  ivec4 t = textures[index].size;
+  ivec4 t = texture_size(index);
   vec2 size = vec2(float(t.y), float(t.z));
   vec2 a = footprint.across * size;
   vec2 b = footprint.up * size;
@@ -69,7 +65,7 @@ vec3 sample_texture(int index, vec2 uv, UvFootprint footprint, int format) {
   minor = clamp(minor, 1.0, major);
   int probes = clamp(int(major / minor + 0.5), 1, kMostProbes);
   float level = log2(max(minor, major / float(probes)));
-  int levels = int(textures[index].more.x);
+  int levels = texture_levels(index);
   int low = clamp(int(floor(level)), 0, levels - 1);
   int high = min(low + 1, levels - 1);
   float between = clamp(level - float(low), 0.0, 1.0);

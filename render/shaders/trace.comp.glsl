@@ -4,7 +4,8 @@
 layout(binding = 0) uniform samplerBuffer lens_table;
 layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;
 #define BACK_KINDS (kSurfaceKinds & 0xffffu)
-#define FRONT_KINDS (kSurfaceKinds >> 16)
+#define FRONT_KINDS ((kSurfaceKinds >> 16) & 0x7fffu)
+#define MAY_CROSS ((kSurfaceKinds >> 31) != 0u)
 #include "lenses/gpu/optics.h"
 
 layout(local_size_x = 64) in;

@@ -5,23 +5,9 @@
 #ifndef VERGENCE_TRAVERSE_BVH4_GLSL
 #define VERGENCE_TRAVERSE_BVH4_GLSL
 
-#include "render/scene/gpu/bvh_layout.h"
+#include "render/shaders/triangle_hit.glsl"
 
-// Whether a triangle that the ray's line crosses counts; flags are kBvhCulled and its fellows.
-#ifndef VERGENCE_MEETS
-#define VERGENCE_MEETS(flags, front, triangle, material, u, v) true
-#endif
-
-struct Hit {
-  float t;        // in lengths of the direction
-  uint triangle;  // in leaf order; kNoTriangle for a miss
-  uint material;
-  float u, v;  // barycentric weights of corners 1 and 2
-};
-
-const uint kNoTriangle = 0xFFFFFFFFu;
 const uint kTraversalDone = 0xFFFFFFFEu;
-const float kFarthest = 1e30f;
 // No sound tree makes a ray take this many steps; a broken buffer must not hang the device.
 const int kMaxTraversalSteps = 1 << 20;
 
@@ -41,35 +27,6 @@ bool is_sound(vec3 origin, vec3 direction) {
 
 vec4 unpack_bytes(uint q) {
   return vec4(float(q & 255u), float((q >> 8) & 255u), float((q >> 16) & 255u), float(q >> 24));
-}
-
-// Moeller and Trumbore, Fast, minimum storage ray-triangle intersection (1997). Every condition is written so that a
-// NaN fails it. t = 0 is no hit: a ray that starts on a triangle does not see it.
-Hit closer_hit(Hit best, uint triangle, vec3 origin, vec3 direction) {
-  int texel = int(triangle * kBvhTriangleTexels);
-  vec4 corner = texelFetch(bvh_triangles, texel);
-  vec3 e1 = vec3(texelFetch(bvh_triangles, texel + 1));
-  vec4 last = texelFetch(bvh_triangles, texel + 2);
-  vec3 e2 = vec3(last);
-  vec3 p = cross(direction, e2);
-  float determinant = dot(e1, p);
-  float inverse = 1.0f / determinant;
-  vec3 s = origin - vec3(corner);
-  float u = dot(s, p) * inverse;
-  vec3 q = cross(s, e1);
-  float v = dot(direction, q) * inverse;
-  float t = dot(e2, q) * inverse;
-  if (determinant != 0.0f && u >= 0.0f && v >= 0.0f && u + v <= 1.0f && t > 0.0f && t < best.t) {
-    uint material = floatBitsToUint(corner.w);
-    if (VERGENCE_MEETS(floatBitsToUint(last.w), determinant > 0.0f, triangle, material, u, v)) {
-      best.t = t;
-      best.triangle = triangle;
-      best.material = material;
-      best.u = u;
-      best.v = v;
-    }
-  }
-  return best;
 }
 
 #define VERGENCE_ORDER(a, b)                                  \

@@ -1,6 +1,8 @@
 // What the host hands to the kernels that trace: views, lights, materials. Included after lenses/gpu/optics.h, in C++
 // inside namespace render::gpu. Only vec4 and ivec4 members, so that std430 and C++ agree without padding.
 
+#include "render/shaders/features.h"
+
 const int kMostViews = 4;  // two eyes, two pairs
 
 // One view: an eye, its lens, its picture and where it stands in the world.
@@ -54,6 +56,17 @@ struct MaterialData {
   vec4 uv_offset[kTextureSlots];
 };
 
+// Where its parts stand, in texels of four words.
+const int kMaterialBaseColourAt = 0;
+const int kMaterialEmissionAt = 1;
+const int kMaterialTexturesAt = 2;
+const int kMaterialFlagsAt = 3;
+const int kMaterialSurfaceAt = 4;
+const int kMaterialMapsAt = 5;
+const int kMaterialUvLinearAt = 6;
+const int kMaterialUvOffsetAt = kMaterialUvLinearAt + kTextureSlots;
+const int kMaterialTexels = kMaterialUvOffsetAt + kTextureSlots;
+
 // How a texture's texels are stored.
 const int kTexelColour = 0;  // RGB9E5, linear
 const int kTexelData = 1;    // 4 x 8 bit
@@ -64,20 +77,6 @@ struct TextureData {
   ivec4 size;  // first word, width, height, wrap_u | wrap_v << 8 | kTexel... << 16
   ivec4 more;  // levels
 };
-
-// What a scene has need of: kernels are compiled without the rest.
-const int kFeatureCull = 1;        // single-sided triangles
-const int kFeatureMask = 2;        // cut-out materials
-const int kFeatureBlend = 4;       // blended materials
-const int kFeatureTexture = 8;
-const int kFeatureShiny = 16;      // materials that are not matte
-const int kFeatureMaps = 32;       // surface, normal or occlusion textures
-const int kFeatureColours = 64;    // vertex colours
-const int kFeatureSecondUv = 128;
-const int kFeatureTransform = 256;
-const int kFeatureUnlit = 512;
-const int kFeatureEmission = 1024;  // emission textures
-const int kMostLayers = 8;         // of what blends, along a ray
 
 struct EnvironmentData {
   vec4 sky_zenith;

@@ -98,7 +98,7 @@ BufferState::BufferState(std::shared_ptr<DeviceState> owner, std::size_t wanted,
   }
   using Usage = ::vk::BufferUsageFlagBits;
   const auto usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eUniformTexelBuffer | Usage::eTransferSrc |
-                     Usage::eTransferDst;
+                     Usage::eTransferDst | Usage::eIndirectBuffer;
   const std::string what = "allocating a buffer of " + std::to_string(bytes) + " bytes on " + device->name;
   guarded(what, [&] {
     buffer = {device->device, ::vk::BufferCreateInfo({}, allocated, usage)};

@@ -10,6 +10,8 @@
 namespace render::vk {
 namespace {
 
+constexpr std::size_t kLargestUpdate = 65536;  // vkCmdUpdateBuffer's
+
 struct TexelKind {
   ::vk::Format format;
   std::size_t bytes;
@@ -21,6 +23,8 @@ TexelKind texel_kind(Binding binding) {
       return {::vk::Format::eR32G32B32A32Sfloat, 16};
     case Binding::texel_rgba32ui:
       return {::vk::Format::eR32G32B32A32Uint, 16};
+    case Binding::texel_rg32ui:
+      return {::vk::Format::eR32G32Uint, 8};
     case Binding::texel_r32ui:
       return {::vk::Format::eR32Uint, 4};
     case Binding::texel_rgba8_unorm:
@@ -122,9 +126,10 @@ void record_barrier(const raii::CommandBuffer& commands) {
   const ::vk::MemoryBarrier barrier(Access::eShaderWrite | Access::eTransferWrite,
                                     Access::eShaderRead | Access::eShaderWrite | Access::eUniformRead |
                                         Access::eTransferRead | Access::eTransferWrite | Access::eHostRead |
-                                        Access::eHostWrite);
+                                        Access::eHostWrite | Access::eIndirectCommandRead);
   commands.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer,
-                           Stage::eComputeShader | Stage::eTransfer | Stage::eHost, {}, barrier, {}, {});
+                           Stage::eComputeShader | Stage::eTransfer | Stage::eHost | Stage::eDrawIndirect, {}, barrier,
+                           {}, {});
 }
 
 CommandsState::CommandsState(std::shared_ptr<DeviceState> owner) : device(std::move(owner)) {
@@ -178,24 +183,51 @@ Commands::~Commands() = default;
 Commands::Commands(Commands&&) noexcept = default;
 Commands& Commands::operator=(Commands&&) noexcept = default;
 
+namespace {
+
+void bind(CommandsState& state, const Kernel& kernel, std::span<const Buffer* const> buffers,
+          std::span<const std::byte> push_constants) {
+  const KernelState& made = *kernel.state();
+  auto& commands = state.recording();
+  commands.bindPipeline(::vk::PipelineBindPoint::eCompute, *made.pipeline);
+  if (!buffers.empty()) {
+    const auto set = bound_set(state, made, buffers);
+    commands.bindDescriptorSets(::vk::PipelineBindPoint::eCompute, *made.layout, 0, set, {});
+  }
+  if (!push_constants.empty()) {
+    commands.pushConstants<std::byte>(*made.layout, ::vk::ShaderStageFlagBits::eCompute, 0, push_constants);
+  }
+  state.kept.push_back(kernel.state());
+  for (const Buffer* buffer : buffers) state.kept.push_back(buffer->state());
+}
+
+}  // namespace
+
 void Commands::dispatch(const Kernel& kernel, std::span<const Buffer* const> buffers,
                         std::span<const std::byte> push_constants, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   const KernelState& made = *kernel.state();
   auto& commands = state_->recording();
   check_dispatch(made, buffers, push_constants, {x, y, z});
   guarded("recording the kernel " + made.name, [&] {
-    commands.bindPipeline(::vk::PipelineBindPoint::eCompute, *made.pipeline);
-    if (!buffers.empty()) {
-      const auto set = bound_set(*state_, made, buffers);
-      commands.bindDescriptorSets(::vk::PipelineBindPoint::eCompute, *made.layout, 0, set, {});
-    }
-    if (!push_constants.empty()) {
-      commands.pushConstants<std::byte>(*made.layout, ::vk::ShaderStageFlagBits::eCompute, 0, push_constants);
-    }
+    bind(*state_, kernel, buffers, push_constants);
     commands.dispatch(x, y, z);
   });
-  state_->kept.push_back(kernel.state());
-  for (const Buffer* buffer : buffers) state_->kept.push_back(buffer->state());
+}
+
+void Commands::dispatch_indirect(const Kernel& kernel, std::span<const Buffer* const> buffers,
+                                 std::span<const std::byte> push_constants, const Buffer& counts) {
+  const KernelState& made = *kernel.state();
+  auto& commands = state_->recording();
+  check_dispatch(made, buffers, push_constants, {1, 1, 1});
+  if (counts.bytes() < 3 * sizeof(std::uint32_t)) {
+    throw std::invalid_argument("kernel " + made.name + ": three counts of workgroups are 12 bytes, not " +
+                                std::to_string(counts.bytes()));
+  }
+  guarded("recording the kernel " + made.name, [&] {
+    bind(*state_, kernel, buffers, push_constants);
+    commands.dispatchIndirect(*counts.state()->buffer, 0);
+  });
+  state_->kept.push_back(counts.state());
 }
 
 void Commands::dispatch(const Kernel& kernel, std::initializer_list<const Buffer*> buffers,
@@ -224,6 +256,15 @@ void Commands::copy(const Buffer& from, Buffer& to, std::size_t bytes, std::size
 
 void Commands::fill_zero(Buffer& buffer) {
   state_->recording().fillBuffer(*buffer.state()->buffer, 0, VK_WHOLE_SIZE, 0);
+  state_->kept.push_back(buffer.state());
+}
+
+void Commands::update(Buffer& buffer, std::span<const std::byte> bytes) {
+  if (bytes.size() > buffer.bytes() || bytes.size() > kLargestUpdate || bytes.size() % 4 != 0) {
+    throw std::out_of_range("an update of " + std::to_string(bytes.size()) + " bytes must fit its buffer of " +
+                            std::to_string(buffer.bytes()) + ", be whole words and at most 65536");
+  }
+  state_->recording().updateBuffer<std::byte>(*buffer.state()->buffer, 0, bytes);
   state_->kept.push_back(buffer.state());
 }
 

@@ -41,12 +41,19 @@ class Commands {
   void dispatch(const Kernel& kernel, std::initializer_list<const Buffer*> buffers,
                 std::span<const std::byte> push_constants, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
 
+  // The same with the counts of workgroups x, y, z read from the start of `counts` when it runs. Counts beyond the
+  // device's limits are the caller's to avoid.
+  void dispatch_indirect(const Kernel& kernel, std::span<const Buffer* const> buffers,
+                         std::span<const std::byte> push_constants, const Buffer& counts);
+
   // What follows sees all that was written before it. Runs follow each other and the host's reads and writes without
   // one.
   void barrier();
 
   void copy(const Buffer& from, Buffer& to, std::size_t bytes, std::size_t from_offset = 0, std::size_t to_offset = 0);
   void fill_zero(Buffer& buffer);
+  // The buffer's first bytes become these: whole words, 65536 bytes at most.
+  void update(Buffer& buffer, std::span<const std::byte> bytes);
 
   // Ends a stage: its time runs from the mark before, or from the beginning, until all work recorded so far is done.
   void timestamp(std::string stage_name);

@@ -20,7 +20,12 @@ DeviceLimits limits_of(const raii::PhysicalDevice& physical, const ::vk::QueueFa
   limits.max_push_constant_bytes = device.maxPushConstantsSize;
   for (std::size_t i = 0; i < 3; ++i) limits.max_groups[i] = device.maxComputeWorkGroupCount[i];
   limits.max_workgroup_invocations = device.maxComputeWorkGroupInvocations;
-  limits.subgroup_size = properties.get<::vk::PhysicalDeviceVulkan11Properties>().subgroupSize;
+  const auto& core11 = properties.get<::vk::PhysicalDeviceVulkan11Properties>();
+  limits.subgroup_size = core11.subgroupSize;
+  using Operation = ::vk::SubgroupFeatureFlagBits;
+  const auto needed = Operation::eBasic | Operation::eArithmetic | Operation::eBallot | Operation::eShuffle;
+  limits.has_subgroup_reductions = (core11.subgroupSupportedOperations & needed) == needed &&
+                                   bool(core11.subgroupSupportedStages & ::vk::ShaderStageFlagBits::eCompute);
   limits.shared_bytes = device.maxComputeSharedMemorySize;
   limits.timestamp_period_ns = family.timestampValidBits == 0 ? 0.0 : static_cast<double>(device.timestampPeriod);
   limits.has_float64 = has_float64;

@@ -42,8 +42,9 @@ struct DeviceLimits {
   std::uint32_t max_groups[3] = {0, 0, 0};  // of one dispatch
   std::uint32_t max_workgroup_invocations = 0;
   std::uint32_t subgroup_size = 0;
-  std::size_t shared_bytes = 0;      // shared memory of a workgroup
-  double timestamp_period_ns = 0.0;  // 0: the queue has no timestamps
+  bool has_subgroup_reductions = false;  // and ballots, broadcasts and shuffles, in compute shaders
+  std::size_t shared_bytes = 0;          // shared memory of a workgroup
+  double timestamp_period_ns = 0.0;      // 0: the queue has no timestamps
   bool has_float64 = false;
 };
 

@@ -47,6 +47,7 @@ raii::Pipeline create_pipeline(const DeviceState& state, const raii::PipelineLay
       return ::vk::DescriptorType::eUniformBuffer;
     case Binding::texel_rgba32f:
     case Binding::texel_rgba32ui:
+    case Binding::texel_rg32ui:
     case Binding::texel_r32ui:
     case Binding::texel_rgba8_unorm:
       return ::vk::DescriptorType::eUniformTexelBuffer;

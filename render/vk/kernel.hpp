@@ -14,7 +14,15 @@ namespace render::vk {
 struct KernelState;
 
 // How the shader sees a buffer. The texel kinds are uniform texel buffers (samplerBuffer, usamplerBuffer).
-enum class Binding { storage_buffer, uniform_buffer, texel_rgba32f, texel_rgba32ui, texel_r32ui, texel_rgba8_unorm };
+enum class Binding {
+  storage_buffer,
+  uniform_buffer,
+  texel_rgba32f,
+  texel_rgba32ui,
+  texel_rg32ui,
+  texel_r32ui,
+  texel_rgba8_unorm
+};
 
 class Kernel {
  public:

@@ -33,16 +33,75 @@ TEST(Bench, TinyRoundGivesTheContractsRows) {
   }
 }
 
+TEST(Bench, TimesPairsOfTheUsersUnderSharedOptions) {
+  const std::string assets = VERGENCE_ASSETS;
+  const std::string mine = assets + "/spectacles/myopia.json", other = assets + "/spectacles/hyperopia.json";
+  const auto result = support::run_program({.arguments = {"bench",
+                                                          "--scene",
+                                                          kRoom,
+                                                          "--size",
+                                                          "16",
+                                                          "--rounds",
+                                                          "1",
+                                                          "--lens",
+                                                          "none,bspline100/sphere",
+                                                          "--mode",
+                                                          "power,pinhole",
+                                                          "--shading",
+                                                          "bare",
+                                                          "--json",
+                                                          "--wearer",
+                                                          assets + "/wearers/myopia.json",
+                                                          "--spectacles",
+                                                          mine,
+                                                          "--compare",
+                                                          other,
+                                                          "--viewing",
+                                                          "fixed",
+                                                          "--headset",
+                                                          assets + "/headsets/example.json",
+                                                          "--look-at",
+                                                          "near_card",
+                                                          "--fov",
+                                                          "40",
+                                                          "--output-space",
+                                                          "retina",
+                                                          "--exposure",
+                                                          "1",
+                                                          "--accuracy",
+                                                          "standard",
+                                                          "--seed",
+                                                          "3",
+                                                          "--all-effects"},
+                                            .time_limit = std::chrono::seconds(300)});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  std::vector<std::string> seen;
+  for (const json& row : json::parse(result.out)) {
+    seen.push_back(row["lens"].get<std::string>() + " " + row["mode"].get<std::string>());
+    EXPECT_FALSE(row.contains("paper_fps_at_1024") && row["lens"] != "none") << row;
+  }
+  const std::vector<std::string> expected{
+      "none vis",    "none pin",    "bspline100/sphere vis", "bspline100/sphere pin",
+      mine + " vis", mine + " pin", other + " vis",          other + " pin"};
+  EXPECT_EQ(seen, expected);
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
-  const std::vector<std::vector<std::string>> bad{
-      {"--lens", "sphere/cube"}, {"--mode", "adof,,pin"}, {"--size", "0"},       {"--size", "512x512"},
-      {"--size", "1.5"},         {"--rounds", "0"},       {"--shading", "nice"}, {"--output", "/proc/none/x"}};
+  const std::vector<std::vector<std::string>> bad{{"--lens", "sphere/cube"}, {"--mode", "adof,,pin"},
+                                                  {"--size", "0"},           {"--size", "512x512"},
+                                                  {"--size", "1.5"},         {"--rounds", "0"},
+                                                  {"--shading", "nice"},     {"--output", "/proc/none/x"},
+                                                  {"--mode", "blur"},        {"--spectacles", "/none.json"},
+                                                  {"--look-at", "nobody"},   {"--accuracy", "most"},
+                                                  {"--exposure", "99"},      {"--lens", "none", "--figures", "x"},
+                                                  {"--eye", "left"}};
   for (const auto& options : bad) {
     std::vector<std::string> arguments{"bench", "--scene", kRoom};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const auto result = support::run_program({.arguments = arguments});
     EXPECT_EQ(result.exit_status, 2) << options[0] << " " << options[1] << ": " << result.err;
-    EXPECT_TRUE(result.err.starts_with("vergence: " + options[0])) << result.err;
+    const std::string at_fault = options[0] == "--spectacles" ? options[1] : options[0];
+    EXPECT_TRUE(result.err.starts_with("vergence: " + at_fault)) << result.err;
     EXPECT_TRUE(result.out.empty());
   }
 }

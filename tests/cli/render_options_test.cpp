@@ -394,12 +394,24 @@ TEST_F(RenderOption, TimingsAppendsRowsAndRepeatSpreadsThem) {
     }
     return all;
   };
-  const json once = draw({"--timings", table}).report.at("stages_ms");
+  const json first = draw({"--timings", table}).report;
+  const json& once = first.at("stages_ms");
   const Words before = lines();
-  ASSERT_EQ(before.size(), 1 + once.size());
+  const std::size_t parts = first.at("start_up_ms").size();
+  EXPECT_GE(parts, 5U);
+  ASSERT_EQ(before.size(), 1 + parts + once.size());
+  for (const auto& [part, ms] : first.at("start_up_ms").items()) {
+    EXPECT_GE(ms.get<double>(), 0.0) << part;
+    EXPECT_TRUE(std::ranges::any_of(before, [&](const std::string& line) {
+      return line.find(",start: " + part + ",") != std::string::npos;
+    })) << part;
+  }
+  // More than the program's own text, less than the goal for a large scene.
+  EXPECT_GT(first.at("peak_memory_MiB").get<double>(), 10.0);
+  EXPECT_LT(first.at("peak_memory_MiB").get<double>(), 1024.0);
   const json often = draw({"--timings", table, "--repeat", "5", "--mode", "adof"}).report.at("stages_ms");
   const Words after = lines();
-  ASSERT_EQ(after.size(), before.size() + often.size());
+  ASSERT_EQ(after.size(), before.size() + parts + often.size());
   EXPECT_EQ(before, Words(after.begin(), after.begin() + std::ssize(before)));
   EXPECT_NE(after.back().find(",adof,64,64,1,2,total,"), std::string::npos) << after.back();
   EXPECT_EQ(once.at("total").at("min"), once.at("total").at("max"));

@@ -1,5 +1,5 @@
-// A bare frame is drawn as the benchmark says: the first light alone, no shadow, one ray a pixel; and apart from that
-// it is the same picture.
+// A bare frame is drawn as the benchmark says: base colours, the first light alone, no shadow, one ray a pixel; and apart
+// from that it is the same picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,6 +27,8 @@ render::Scene wall_scene(bool shelf, bool second_light) {
   render::Scene scene;
   scene.materials.emplace_back();
   scene.materials[0].double_sided = true;
+  scene.materials[0].metallic = 0.0F;  // matte: a bare frame knows no other material
+  scene.materials[0].roughness = 1.0F;
   add_quad(scene, {-3, -3, -2}, {6, 0, 0}, {0, 6, 0});
   if (shelf) {
     add_quad(scene, {-3, 1.2F, -1.99F}, {6, 0, 0}, {0, 0, 0.9F});

@@ -2,7 +2,7 @@
 // how far off the power is, by the number of control points; and samples as rough as a sag file's.
 #include <glm/gtc/constants.hpp>
 
-#include "assets/generator/bspline_fit.hpp"
+#include "lenses/bspline_field.hpp"
 #include "tests/support/hard_case.hpp"
 
 namespace {
@@ -15,8 +15,7 @@ constexpr double kCurvature = 12.5;  // 80 mm
 
 lenses::BsplineHeightField sampled(const std::function<double(double, double)>& z, std::size_t count,
                                    double half_width = kHalfWidth) {
-  const assets::BsplineNet net = assets::fit_bspline(z, count, half_width);
-  return {net.knots, net.knots, net.control};
+  return lenses::fit_height_field(z, count, half_width);
 }
 
 double sphere(double x, double y) {

@@ -7,6 +7,7 @@
 
 #include "lenses/bspline_field.hpp"
 #include "lenses/design/progressive.hpp"
+#include "lenses/design/progressive_lens.hpp"
 #include "tests/support/random_lens.hpp"
 #include "tracking/input_error.hpp"
 
@@ -87,6 +88,34 @@ TEST(ProgressiveRange, EveryOrderIsMet) {
     EXPECT_NEAR(closed.report.distance_power, config.distance_power, 0.06);
   }
   EXPECT_GE(made, 24);
+}
+
+// Finished lenses of any order: made, or refused for a reason that names a field of the request; never half made.
+TEST(ProgressiveRange, EveryLensIsMadeOrRefusedByName) {
+  Random random(kSeed + 1);
+  int made = 0;
+  for (int i = 0; i < 30; ++i) {
+    lenses::ProgressiveLensRequest request;
+    request.surface = random_config(random);
+    request.surface.grid = 30;
+    request.surface.method = i % 2 == 0 ? Method::closed_form : Method::variational;
+    request.sphere = random.uniform(-12.0, 8.0);
+    request.addition = request.surface.addition;
+    SCOPED_TRACE(testing::Message() << "seed " << kSeed + 1 << ", order " << i << ": " << request.sphere << " add "
+                                    << request.addition);
+    try {
+      const lenses::ProgressiveLens lens = lenses::make_progressive_lens(request);
+      ++made;
+      EXPECT_NEAR(lens.distance_reading, request.sphere, 1e-6);
+      EXPECT_NEAR(lens.addition_reading, request.addition, 0.01);
+      EXPECT_GE(lens.thinnest_edge, request.minimum_edge_thickness);
+    } catch (const tracking::InputError& error) {
+      EXPECT_TRUE(error.field() == "base_curve" || error.field() == "diameter" || error.field() == "sphere")
+          << error.what();
+      EXPECT_GT(request.sphere, 3.0) << error.what();  // an ordinary lens is no trouble
+    }
+  }
+  EXPECT_GE(made, 22);
 }
 
 }  // namespace

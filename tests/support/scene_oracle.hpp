@@ -2,6 +2,7 @@
 // with GLM's types and the two texel buffers replaced by vectors.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
@@ -22,10 +23,13 @@ using glm::uint;
 
 inline thread_local const uvec4* bvh_nodes = nullptr;
 inline thread_local const vec4* bvh_triangles = nullptr;
+inline thread_local std::size_t fetches = 0;  // a traversal's cost on any machine
 inline uvec4 texelFetch(const uvec4* buffer, int texel) {
+  ++fetches;
   return buffer[texel];
 }
 inline vec4 texelFetch(const vec4* buffer, int texel) {
+  ++fetches;
   return buffer[texel];
 }
 

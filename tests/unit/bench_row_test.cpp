@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/bench/bench_chart.hpp"
+#include "app/bench/bench_growth.hpp"
 #include "app/bench/bench_report.hpp"
 
 namespace app {
@@ -140,6 +142,12 @@ TEST(BenchReport, RatiosAreThoseOfTheRows) {
   EXPECT_NE(table.find("Embree16 50.0 M/s: 0.80"), std::string::npos) << table;
   EXPECT_NE(table.find("bspline/sphere adof / none adof: 1.25 (paper: 2.10)"), std::string::npos) << table;
   EXPECT_NE(table.find("25.00 to 25.00): 2.00"), std::string::npos) << table;
+  // Where hits are found in a stage of their own, it alone counts.
+  BenchReport tiled = report();
+  tiled.rows[1].stages = {{"rays", 5.0}, {"tile", 10.0}, {"trace", 10.0}, {"encode", 5.0}};
+  const std::string of_tiles = bench_table(tiled);
+  EXPECT_NE(of_tiles.find("100.0 M/s (tile stage of none/pin), Embree16 50.0 M/s: 2.00"), std::string::npos)
+      << of_tiles;
 }
 
 // The paper's 1000 / 66.5 ms at 1024 squared is that times (1000 / 1024)^2 at 1000 squared.
@@ -151,6 +159,53 @@ TEST(BenchReport, LinearGrowthHasRatioOne) {
   const std::string table = bench_table(report());
   const std::string growth = table.substr(table.find("Nanoseconds a pixel"));
   EXPECT_NE(growth.find("40.0      40.0     1.00"), std::string::npos) << growth;
+}
+
+// Points on 2 ms + 30 ms a megapixel; and on a square root, which no line meets.
+TEST(BenchGrowth, FitFindsTheLineAndTheExponent) {
+  const std::vector<GrowthPoint> line{{0.25e6, 9.5}, {1e6, 32.0}, {4e6, 122.0}};
+  const GrowthFit fit = fit_growth(line);
+  EXPECT_NEAR(fit.fixed_ms, 2.0, 1e-9);
+  EXPECT_NEAR(fit.ms_a_megapixel, 30.0, 1e-9);
+  EXPECT_NEAR(fit.largest_departure, 0.0, 1e-12);
+  EXPECT_NEAR(fit.exponent, std::log(122.0 / 9.5) / std::log(16.0), 1e-9) << "equal steps: the end points' slope";
+  const GrowthFit bent = fit_growth(std::vector<GrowthPoint>{{1e6, 10.0}, {4e6, 20.0}, {16e6, 40.0}});
+  EXPECT_NEAR(bent.exponent, 0.5, 1e-9);
+  EXPECT_GT(bent.largest_departure, 0.05);
+  EXPECT_THROW(static_cast<void>(fit_growth(std::vector<GrowthPoint>{{1.0, 1.0}})), std::invalid_argument);
+}
+
+TEST(BenchGrowth, ThreeSizesShowTheirLine) {
+  BenchReport r = report();
+  r.rows.push_back(row("none", "adof", 500, 9.0, 3.0));  // 2.67 ms fixed, 37.33 a megapixel: 12, 40, (149.3) 152
+  r.rows[3].ms = {152.0, 152.0, 152.0};
+  const std::string table = growth_table(r);
+  EXPECT_NE(table.find("none             adof bare "), std::string::npos) << table;
+  EXPECT_NE(table.find("2.67 + 37.33 a megapixel, within 0.0 %"), std::string::npos) << table;
+  r.rows.resize(1);
+  EXPECT_TRUE(growth_table(r).empty());
+}
+
+TEST(BenchReport, FilesAndFinerNetsStandBesideTheTable) {
+  BenchReport r = report();
+  const std::string file = "a folder/<mine> & a rather long name of a pair, worn.json";
+  r.rows.push_back(row(kFineNetLens, "adof", 2000, 166.0, 40.0));
+  r.rows.push_back(row(file, "adof", 2000, 166.0, 40.0));
+  const std::string table = bench_table(r);
+  EXPECT_NE(table.find("100 x 100 control points / 50 x 50: frame 1.030 (least over least 1.030), trace stage 1.038"),
+            std::string::npos)
+      << table;
+  const std::string line = table.substr(table.find(file), 120);
+  EXPECT_NE(line.find("206.00"), std::string::npos) << line;
+  EXPECT_NE(line.find(" - "), std::string::npos) << "no time of the paper's: " << line;
+  const std::string csv = rows_csv(r.rows, {});
+  EXPECT_NE(csv.find("\"" + file + "\",adof"), std::string::npos) << csv;
+  const std::string chart = to_svg(bench_chart(r));
+  EXPECT_EQ(chart.find("<mine>"), std::string::npos);
+  EXPECT_NE(chart.find("pair, worn adof"), std::string::npos) << chart;
+  for (const Chart::Label& label : bench_chart(r).labels) {
+    EXPECT_LE(label.x + render::text_width(label.text, 1), bench_chart(r).width) << label.text;
+  }
 }
 
 TEST(BenchReport, PageEscapesAndChartHasABarARow) {

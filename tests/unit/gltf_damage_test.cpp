@@ -22,6 +22,25 @@ TEST(GltfReaderDamage, files) {
   expect_refused(folder.write("nested.gltf", nested), "", "64");
 }
 
+TEST(GltfReaderDamage, other_versions) {
+  Gltf g = square();
+  for (const char* other : {"1.0", "3.0", "20.0", "two"}) {
+    g.root["asset"]["version"] = other;
+    expect_refused(g, "asset.version", "glTF 2.0 is allowed");
+  }
+  // As the files of version 1 are, whose collections have names: their shape is not what is wrong with them.
+  g.root["asset"]["version"] = "1.0";
+  g.root["buffers"] = {{"square", {{"byteLength", 60}, {"uri", "square.bin"}}}};
+  expect_refused(g, "asset.version", "is 1.0");
+  g = square();
+  g.root["asset"]["version"] = "2.1";
+  EXPECT_EQ(read(g).triangles.size(), 2U) << "what a minor version adds may be passed over";
+  g.root["asset"]["minVersion"] = "2.0";
+  EXPECT_EQ(read(g).triangles.size(), 2U);
+  g.root["asset"]["minVersion"] = "2.1";
+  expect_refused(g, "asset.minVersion", "is 2.1");
+}
+
 TEST(GltfReaderDamage, binary_containers) {
   const Folder folder;
   const Bytes good = square().glb();

@@ -145,6 +145,27 @@ TEST(PrescriptionReader, NamesTheFieldOfEveryError) {
       });
 }
 
+// The committed examples of the command are what they say.
+TEST(PrescriptionExamples, AreReadAsOrderedOrAsCompensated) {
+  for (const char* name : {"single_vision_minus225_right", "bifocal_ft28_plus400_right", "as_worn_minus600_right",
+                           "contact_soft_minus500"}) {
+    SCOPED_TRACE(name);
+    const lenses::Lens lens = lenses::read_lens(std::string(VERGENCE_ASSETS) + "/lenses/" + name + ".json");
+    ASSERT_TRUE(lens.order);
+    const lenses::Prescription& expected = lens.order->compensated.value_or(lens.order->ordered);
+    const design::PointPower read = reading(lens);
+    const design::PointPower wanted = design::ordered_power(expected);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_NEAR(read.power[i][0], wanted.power[i][0], 1e-6);
+      EXPECT_NEAR(read.power[i][1], wanted.power[i][1], 1e-6);
+      EXPECT_NEAR(read.prism[i], wanted.prism[i], 1e-6);
+    }
+  }
+  const lenses::Spectacles pair =
+      lenses::read_spectacles(std::string(VERGENCE_ASSETS) + "/spectacles/ordered_progressive.json");
+  EXPECT_TRUE(pair.lens[0].order && pair.lens[0].order->compensated) << "thinned";
+}
+
 // Whatever a file asks for, it is made or refused, never both half.
 TEST(PrescriptionReader, RefusesWhatNoLensCanBe) {
   const auto refused = [](const char* text, const std::string& field, const std::string& reason) {

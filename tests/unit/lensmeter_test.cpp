@@ -10,6 +10,7 @@
 #include "lenses/measure/power.hpp"
 #include "lenses/measure/readings.hpp"
 #include "lenses/measure/thickness.hpp"
+#include "tests/support/absurd_lens.hpp"
 #include "tests/support/random_lens.hpp"
 
 namespace {
@@ -244,6 +245,35 @@ TEST(Lensmeter, SaysWhyThereIsNoReading) {
   EXPECT_EQ(meter.read(LensSide::back, {0.030, 0.0}).status, RayStatus::inverted) << "the surfaces have crossed";
   EXPECT_EQ(meter.read(LensSide::front, {0.030, 0.0}).status, RayStatus::inverted);
   EXPECT_EQ(meter.read(LensSide::back, {0.005, 0.0}).status, RayStatus::ok);
+}
+
+// Whatever a file may hold: a status or finite numbers, and an end.
+TEST(Lensmeter, AbsurdLensesGiveFiniteReadingsOrAStatus) {
+  support::Random random(5);
+  int ok = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Lens lens = support::absurd_lens(random);
+    std::optional<Lensmeter> meter;
+    try {
+      meter.emplace(lens);
+    } catch (const std::invalid_argument&) {
+      continue;  // a patch that folds over
+    }
+    static_cast<void>(lenses::edge_thickness(lens, *meter));
+    for (int k = 0; k < 20; ++k) {
+      const double reach = 0.6 * lens.diameter;
+      const glm::dvec2 point(random.uniform(-reach, reach), random.uniform(-reach, reach));
+      for (const LensSide side : {LensSide::back, LensSide::front}) {
+        const LensmeterReading reading = meter->read(side, point);
+        if (reading.status == RayStatus::ok) {
+          ++ok;
+          EXPECT_TRUE(std::isfinite(reading.power.x + reading.power.y + reading.power.z)) << i;
+          EXPECT_TRUE(std::isfinite(reading.prism.x + reading.prism.y)) << i;
+        }
+      }
+    }
+  }
+  EXPECT_GT(ok, 500);
 }
 
 TEST(Thickness, IsTheDifferenceOfTheSags) {

@@ -283,7 +283,7 @@ TEST(ProgressiveConfig, NamesWhatIsOutOfRange) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(field_of([](auto&) {}), "none");
-  EXPECT_EQ(field_of([](auto& c) { c.addition = 0.5; }), "addition");
+  EXPECT_EQ(field_of([](auto& c) { c.addition = 0.4; }), "addition");
   EXPECT_EQ(field_of([&](auto& c) { c.addition = nan; }), "addition");
   EXPECT_EQ(field_of([](auto& c) { c.corridor_length = 0.019; }), "corridor_length");
   EXPECT_EQ(field_of([](auto& c) { c.corridor_length = 18 * 1e-3; }), "none");

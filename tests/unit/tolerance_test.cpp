@@ -153,6 +153,24 @@ TEST(Verdict, PrismIsRightToAThirdOrWithinAMillimetre) {
   EXPECT_FALSE(of(checks(lens, order), "prism").pass);
 }
 
+TEST(Verdict, AMountedPairsVerticalImbalance) {
+  const Prescription ordered{-2.0, 0.0, 0.0, 0.0, {{1.0, 90 * kRadians}}}, other{-6.0, 0.0, 0.0, 0.0, {}};
+  Prescription lens = ordered;
+  lens.prism[0].magnitude = 1.33;
+  const auto check = [&](const Prescription& made, const Prescription& partner) {
+    return *vertical_imbalance(ansi(), readings_of(made), Order{ordered, std::nullopt}, readings_of(partner),
+                               Order{other, std::nullopt});
+  };
+  EXPECT_NEAR(check(lens, other).target, 1.0, 1e-12) << "what was ordered is no imbalance";
+  EXPECT_TRUE(check(lens, other).pass);
+  Prescription partner = other;
+  partner.prism = {{0.01, 270 * kRadians}};  // the other way: both add
+  EXPECT_FALSE(check(lens, partner).pass);
+  partner.prism = {{5.0, 180 * kRadians}};
+  EXPECT_TRUE(check(lens, partner).pass) << "horizontal prism is none of it";
+  EXPECT_FALSE(vertical_imbalance(ansi(), readings_of(lens), std::nullopt, readings_of(other), Order{other, {}}));
+}
+
 TEST(Verdict, IsAgainstTheCompensatedPowerWhereThereIsOne) {
   const Prescription ordered{-4.0, 0.0, 0.0, 2.0, {}}, compensated{-3.7, -0.25, 90 * kRadians, 1.9, {}};
   const Order order{ordered, compensated};

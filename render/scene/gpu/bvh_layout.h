@@ -9,6 +9,10 @@
 // kBvhLeafBit | first triangle << kBvhLeafFirstShift | count, or kBvhNoChild (its box is inverted: low 255, high 0).
 // The root is node 0.
 //
+// The 8-wide tree over the same triangles has 16 uvec4 a node: child i's box as floats in (bits(low), reference) at i and
+// (bits(high), 0) at 8 + i, so that eight invocations read a node in two fetches. A child that is not there has an
+// inverted box.
+//
 // A triangle is three vec4 (leaf order): (v0, bits(material)), (v1 - v0, bits(original triangle)),
 // (v2 - v0, bits(kBvhCulled...)).
 // Its shading data are four vec4: (n0, u0), (n1, u1), (n2, u2), (v0, v1, v2, 0) with (u, v) texture coordinates.
@@ -26,6 +30,8 @@ namespace render {
 #endif
 
 VERGENCE_BVH_UINT kBvhNodeTexels = 4u;
+VERGENCE_BVH_UINT kBvhWide = 8u;  // children of a wide node
+VERGENCE_BVH_UINT kBvhWideNodeTexels = 16u;
 VERGENCE_BVH_UINT kBvhTriangleTexels = 3u;
 VERGENCE_BVH_UINT kBvhShadingTexels = 4u;
 VERGENCE_BVH_UINT kBvhMoreTexels = 3u;

@@ -1,0 +1,181 @@
+#include "render/frame_job.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "render/gpu_tracer.hpp"
+#include "render/map_range.hpp"
+
+namespace render {
+namespace {
+
+// Numbers that cross to the shaders.
+static_assert(gpu::kModePinhole == static_cast<int>(Mode::pinhole) && gpu::kModeAdof == static_cast<int>(Mode::adof) &&
+              gpu::kModeDof == static_cast<int>(Mode::dof) && gpu::kModePower == static_cast<int>(Mode::power) &&
+              gpu::kModeAstigmatism == static_cast<int>(Mode::astigmatism) &&
+              gpu::kModeAccommodation == static_cast<int>(Mode::accommodation) &&
+              gpu::kModeBlur == static_cast<int>(Mode::blur));
+
+constexpr std::uint32_t kGroup = 8;  // local size of the frame's kernels
+// What a bare picture keeps of a scene: where faces are, and their base colour.
+constexpr auto kBareFeatures =
+    static_cast<std::uint32_t>(gpu::kFeatureCull | gpu::kFeatureMask | gpu::kFeatureTexture | gpu::kFeatureColours |
+                               gpu::kFeatureSecondUv | gpu::kFeatureTransform | gpu::kFeatureUnlit);
+constexpr float kLargestBlur = 512.0F;  // px; beyond it nothing is left to see
+constexpr float kNoBlurDrawn = 1e9F;    // px, as a threshold
+
+std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
+  std::vector<gpu::ViewData> data;
+  for (const ViewSetup& view : views) {
+    data.push_back(make_view_data(view, lenses));
+  }
+  data.resize(gpu::kMostViews);  // a uniform buffer has its full size
+  return data;
+}
+
+}  // namespace
+
+bool keeps_wavefront(const FrameConfig& config) {
+  return is_map(config.mode) || config.mode == Mode::dof || config.keep_wavefront;
+}
+
+FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
+                   const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+                   Traversal traversal)
+    : scene_(scene),
+      kernels_(kernels),
+      out_(out),
+      config_(config),
+      table_(filled_buffer(device, lenses::to_float(lenses.table))),
+      views_(filled_buffer(device, view_data(lenses, views))) {
+  std::vector<lenses::f64::LensData> worn;
+  for (const ViewSetup& view : views) {
+    worn.push_back(lenses.lens[view.lens]);
+  }
+  variant_.surface_kinds = surface_kinds(worn);
+  variant_.scene_features = scene.features;
+  variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
+  variant_.keep_wavefront = keeps_wavefront(config);
+  variant_.bare = config.bare;
+  if (config.bare) {
+    variant_.scene_features &= kBareFeatures;
+  }
+  variant_.found = traversal == Traversal::tile;
+  data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
+  data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
+  // A pinhole picture is the defocused one with nothing left to blur.
+  const float threshold = config.mode == Mode::adof ? static_cast<float>(config.threshold_px) : kNoBlurDrawn;
+  data_.limits = glm::vec4(threshold, kLargestBlur, std::exp2(static_cast<float>(config.exposure)), 0.0F);
+}
+
+void FrameJob::set_range(const MapRange& range) {
+  data_.map_range = glm::vec4(static_cast<float>(range.low), static_cast<float>(range.high),
+                              static_cast<float>(map_unit_factor(config_.mode)), 0.0F);
+}
+
+void FrameJob::record_trace(vk::Commands& commands) {
+  if (variant_.found) {
+    find_hits_by_tile(commands);
+  }
+  trace_with(commands, Stage::chief,
+             {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions});
+  commands.timestamp("trace");
+}
+
+// A view's list is worked off before the next view's is made: they share the memory.
+void FrameJob::aim(vk::Commands& commands) {
+  const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list});
+  for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+    empty_list(commands);
+    commands.barrier();
+    dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
+    commands.barrier();
+    if (variant_.surface_kinds != 0) {
+      dispatch_list(commands, kernels_.get(Stage::unsettled, variant_), buffers);
+      commands.barrier();
+    }
+  }
+}
+
+void FrameJob::find_hits_by_tile(vk::Commands& commands) {
+  aim(commands);
+  commands.timestamp("rays");
+  commands.barrier();
+  empty_list(commands);
+  commands.barrier();
+  dispatch(
+      commands, kernels_.get(Stage::tile, variant_),
+      {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
+  commands.barrier();
+  dispatch_list(commands, kernels_.get(Stage::left_out, variant_),
+                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list}));
+  commands.timestamp("tile");
+  commands.barrier();
+}
+
+void FrameJob::record_edges(vk::Commands& commands) {
+  for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+    commands.barrier();
+    empty_list(commands);
+    commands.barrier();
+    dispatch_view(commands, kernels_.get(Stage::find_edges), {&out_.pixels, &out_.keys, &out_.list});
+    commands.barrier();
+    dispatch_list(commands, kernels_.get(Stage::edges, variant_), with_scene({&out_.pixels, &out_.list}));
+  }
+  commands.timestamp("edges");
+}
+
+void FrameJob::record_blur(vk::Commands& commands) {
+  commands.barrier();
+  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
+           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
+  commands.timestamp("blur");
+}
+
+void FrameJob::record_encode(vk::Commands& commands) {
+  commands.barrier();
+  dispatch(commands, kernels_.get(is_map(config_.mode) ? Stage::colour : Stage::encode),
+           {is_map(config_.mode) ? &out_.wavefronts : &out_.radiance, &out_.display});
+  commands.timestamp("encode");
+}
+
+void FrameJob::record_sample(vk::Commands& commands, int index) {
+  data_.sampling.x = index;
+  trace_with(commands, Stage::samples, {&out_.wavefronts, &out_.sums, &out_.radiance});
+  commands.barrier();
+}
+
+// The view of data_.view.
+void FrameJob::dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+  const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kGroup - 1) / kGroup; };
+  commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
+}
+
+void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+  for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+    dispatch_view(commands, kernel, buffers);
+  }
+}
+
+void FrameJob::dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+  commands.dispatch_indirect(kernel, buffers, vk::bytes_of(data_), out_.list);
+}
+
+void FrameJob::empty_list(vk::Commands& commands) {
+  constexpr std::array<std::uint32_t, gpu::kListFirstAt> kEmpty{0, 1, 1, 0};
+  commands.update(out_.list, std::as_bytes(std::span(kEmpty)));
+}
+
+void FrameJob::trace_with(vk::Commands& commands, Stage stage, const Buffers& own) {
+  dispatch(commands, kernels_.get(stage, variant_), with_scene(own));
+}
+
+FrameJob::Buffers FrameJob::with_scene(const Buffers& own) const {
+  Buffers all{&table_, &scene_.bvh_nodes,   &scene_.bvh_triangles, &scene_.shading_triangles, &scene_.texels,
+              &views_, &scene_.environment, &scene_.lights,        &scene_.materials,         &scene_.textures};
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+}  // namespace render

@@ -1,0 +1,54 @@
+// One frame in the making: its settings on the device, and the recording of each stage.
+#pragma once
+
+#include <vector>
+
+#include "lenses/lens_model.hpp"
+#include "render/frame_buffers.hpp"
+#include "render/frame_types.hpp"
+#include "render/kernel_set.hpp"
+#include "render/renderer.hpp"
+#include "render/vk/commands.hpp"
+
+namespace render {
+
+class FrameJob {
+ public:
+  // What is referred to must outlive the job. traversal: per_ray or tile.
+  FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
+           const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+           Traversal traversal);
+
+  void set_range(const MapRange& range);
+
+  void record_trace(vk::Commands& commands);
+  void record_edges(vk::Commands& commands);
+  void record_blur(vk::Commands& commands);
+  void record_encode(vk::Commands& commands);
+  void record_sample(vk::Commands& commands, int index);
+
+ private:
+  using Buffers = std::vector<const vk::Buffer*>;
+
+  void aim(vk::Commands& commands);
+  void find_hits_by_tile(vk::Commands& commands);
+  void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void empty_list(vk::Commands& commands);
+  void trace_with(vk::Commands& commands, Stage stage, const Buffers& own);
+  [[nodiscard]] Buffers with_scene(const Buffers& own) const;
+
+  const SceneBuffers& scene_;
+  KernelSet& kernels_;
+  FrameBuffers& out_;
+  const FrameConfig& config_;
+  vk::Buffer table_, views_;
+  TraceVariant variant_;
+  gpu::FrameData data_{};
+};
+
+// Whether a frame of these settings has every pixel's wavefront in memory.
+[[nodiscard]] bool keeps_wavefront(const FrameConfig& config);
+
+}  // namespace render

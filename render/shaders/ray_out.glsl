@@ -1,0 +1,19 @@
+// Where the rays kernels leave a pixel's ray beyond the lens, for a traversal that looks at many at once.
+
+// m, world; w: the length in air before the lens.
+layout(std430, binding = 10) writeonly buffer Origins { vec4 origins[]; };
+// Unit; w: the length in glass, 0 for a ray that meets no lens, minus the status where a rim ends the ray.
+layout(std430, binding = 11) writeonly buffer Directions { vec4 directions[]; };
+
+void leave_ray(ViewData view, PixelRay ray, int at) {
+  SceneRay beyond = scene_ray(view, ray);
+  bool through = LENS_USED && view.lens.glass.w != 0.0 && ray.status == kStatusOk;
+  vec2 lengths = through ? vec2(ray.line.path.t_back, ray.line.path.t_front) : vec2(0.0);
+  if (shows_rim(ray.status)) {
+    lengths.y = -float(ray.status);
+  } else if (!is_sound(beyond.origin, beyond.direction)) {
+    lengths.y = -float(kStatusSingular);
+  }
+  origins[at] = vec4(beyond.origin, lengths.x);
+  directions[at] = vec4(beyond.direction, lengths.y);
+}

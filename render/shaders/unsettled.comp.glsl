@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The listed rays beyond the lens, without hurry.
+#include "render/shaders/scene_bindings.glsl"
+#include "render/shaders/shading.glsl"
+#include "render/shaders/pixel.glsl"
+#include "render/shaders/ray_out.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 12) readonly buffer Unsettled { uint unsettled[]; };  // this view's alone
+
+void main() {
+  ViewData view = views[frame.view.x];
+  uint count = unsettled[kListCountAt];
+  for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
+    int at = int(unsettled[kListFirstAt + i]);
+    int in_view = at - frame.view.x * frame.size.x * frame.size.y;
+    vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
+    leave_ray(view, aim_pixel(view, pixel_direction(view, p + 0.5), vec2(0.0), vec2(0.0)), at);
+  }
+}

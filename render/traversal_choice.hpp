@@ -1,0 +1,26 @@
+// Which traversal finds what a frame's chief rays meet: the faster by a short measurement, which is kept.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "render/kernel_set.hpp"
+#include "render/renderer.hpp"
+
+namespace render {
+
+class TraversalChoice {
+ public:
+  explicit TraversalChoice(RendererConfig config) : config_(std::move(config)) {}
+
+  // per_ray or tile. Measures the first time that a device traces this kind of ray.
+  [[nodiscard]] Traversal for_frame(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels,
+                                    const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                                    const FrameConfig& frame);
+
+ private:
+  RendererConfig config_;
+  std::map<RayKind, Traversal> known_;
+};
+
+}  // namespace render

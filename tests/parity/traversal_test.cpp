@@ -1,0 +1,266 @@
+// Every traversal hits what Embree hits, and the picture does not depend on which one is at work.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "render/vk/device.hpp"
+#include "tests/support/cluttered_room.hpp"
+#include "tests/support/device_hits.hpp"
+#include "tests/support/embree_packets.hpp"
+#include "tests/support/worn_views.hpp"
+
+namespace {
+
+using render::Scene;
+using render::Traversal;
+using support::WorldRay;
+
+constexpr int kWidth = 333, kHeight = 251;  // no multiples of a tile
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+render::vk::Device& device() {
+  static render::vk::Device the_device;
+  return the_device;
+}
+
+// 12 degrees and more of deviation, its rim well inside the picture.
+lenses::Spectacles strong_prism() {
+  lenses::Lens lens;
+  lens.index = 1.74;
+  lens.centre_thickness = 0.008;
+  lens.diameter = 0.034;
+  lens.front = lenses::Sphere{1.0 / 0.060};
+  lens.back = lenses::Sphere{1.0 / 0.050};
+  lens.fit.decentration = {0.006, -0.004};
+  lens.fit.wrap = 20.0 * support::kDegree;
+  lens.fit.pantoscopic_tilt = -15.0 * support::kDegree;
+  return {"strong prism", {lens, lens}, glm::dvec3(1.0)};
+}
+
+struct Glasses {
+  std::string name;
+  std::optional<lenses::Spectacles> worn;
+};
+
+std::vector<Glasses> all_glasses() {
+  return {{"none", std::nullopt},
+          {"strong prism", strong_prism()},
+          {"myopia", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/myopia.json")},
+          {"progressive", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_torus.json")}};
+}
+
+struct Place {
+  std::string name;
+  Scene scene;
+  tracking::Pose head;
+};
+
+// Embree's triangles have no backs to leave out.
+Scene both_sided(Scene scene) {
+  for (render::Material& material : scene.materials) material.double_sided = true;
+  return scene;
+}
+
+std::vector<Place> places() {
+  std::vector<Place> all;
+  Scene room = support::reading_room();
+  const tracking::Pose in_room = room.start_pose.value();
+  all.push_back({"reading room", std::move(room), in_room});
+  all.push_back({"cluttered room", support::cluttered_room(7, 60000), tracking::Pose{}});
+  tracking::Pose above;
+  above.position = {0.3, 2.5, 9.0};
+  above.orientation = tracking::orientation_from_yaw_pitch(0.3, -0.35);
+  all.push_back({"waves", scene_oracle::waves(120), above});
+  return all;
+}
+
+// The rays beyond the lens as floats; a rim has none. A wide picture, so that rims and steep rays are in it.
+std::vector<WorldRay> rays_of(const support::WornPair& pair, const render::ViewSetup& view) {
+  std::vector<WorldRay> rays;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const auto pixel = support::reference_pixel(pair, view, support::pixel_direction(view, x, y, kWidth, kHeight));
+      const bool rim = pixel.status != lenses::f64::kStatusOk && pixel.status != lenses::f64::kStatusMissBack;
+      rays.push_back({glm::vec3(pixel.start), rim ? glm::vec3(0.0F) : glm::vec3(pixel.direction)});
+    }
+  }
+  return rays;
+}
+
+double distance_to(const Scene& scene, std::uint32_t triangle, const WorldRay& ray) {
+  const glm::uvec3 index = scene.triangles.at(triangle);
+  const glm::dvec3 a(scene.vertices[index.x].position);
+  const glm::dvec3 n =
+      glm::cross(glm::dvec3(scene.vertices[index.y].position) - a, glm::dvec3(scene.vertices[index.z].position) - a);
+  return glm::dot(n, a - glm::dvec3(ray.origin)) / glm::dot(n, glm::dvec3(ray.direction));
+}
+
+// Another triangle at the same distance - a shared edge, two faces on each other - is the same hit.
+bool same_hit(const Scene& scene, const WorldRay& ray, std::uint32_t a, std::uint32_t b) {
+  if (a == b || a == kNone || b == kNone) return a == b;
+  const double one = distance_to(scene, a, ray), other = distance_to(scene, b, ray);
+  return std::abs(one - other) <= 1e-4 * std::abs(other);
+}
+
+TEST(Traversals, HitWhatEmbreeHits) {
+  const auto fov = tracking::FieldOfView::symmetric(100.0 * support::kDegree, double{kWidth} / kHeight);
+  std::size_t pixels = 0, rims = 0, handed_on = 0, tile_wrong = 0, per_ray_wrong = 0;
+  for (Place place : places()) {
+    place.scene = both_sided(std::move(place.scene));
+    const support::EmbreePackets embree(place.scene);
+    const render::SceneBuffers buffers(device(), place.scene);
+    for (const Glasses& glasses : all_glasses()) {
+      const auto pair = support::wear(lenses::Wearer{}, glasses.worn ? &*glasses.worn : nullptr, place.head);
+      for (const double yaw : {0.0, 0.6}) {  // the second across a tile's change of main axis
+        const glm::dvec3 gaze(std::sin(yaw), -0.2, -std::cos(yaw));
+        const auto rays = rays_of(pair, support::view_along(pair, 0, render::Viewing::gaze, gaze, fov));
+        std::vector<support::EmbreePackets::Hit> expected(rays.size());
+        std::vector<WorldRay> traced = rays;
+        for (WorldRay& ray : traced) {
+          if (ray.direction == glm::vec3(0.0F)) ray.direction = {0.0F, 0.0F, 1.0F};
+        }
+        embree.intersect(traced, expected);
+        const auto tile = support::device_hits(device(), buffers, rays, kWidth, kHeight, Traversal::tile);
+        const auto per_ray = support::device_hits(device(), buffers, rays, kWidth, kHeight, Traversal::per_ray);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+          if (rays[i].direction == glm::vec3(0.0F)) {
+            ++rims;
+            continue;
+          }
+          ++pixels;
+          wrong += same_hit(place.scene, rays[i], tile.triangle[i], expected[i].triangle) ? 0 : 1;
+          per_ray_wrong += same_hit(place.scene, rays[i], per_ray.triangle[i], expected[i].triangle) ? 0 : 1;
+        }
+        tile_wrong += wrong;
+        handed_on += tile.left_out;
+        std::cout << place.name << ", " << glasses.name << ", yaw " << yaw << ": " << wrong << " differ, "
+                  << tile.left_out << " handed on of " << rays.size() << "\n";
+      }
+    }
+  }
+  std::cout << pixels << " rays, " << rims << " rims: " << tile_wrong << " by tile and " << per_ray_wrong
+            << " by ray differ from Embree\n";
+  EXPECT_LE(tile_wrong, pixels / 100000);
+  EXPECT_LE(per_ray_wrong, pixels / 100000);
+  EXPECT_GT(rims, 1000U);
+  EXPECT_LT(handed_on, pixels / 100) << "the tile traversal is left unused";
+}
+
+// Rays that fly apart - all of a picture's, or one in every other tile - are traced one by one, and tiles in which some
+// have no ray at all are sound.
+TEST(Traversals, HandOnWhatFliesApart) {
+  const Scene scene = both_sided(support::cluttered_room(5, 20000));
+  const support::EmbreePackets embree(scene);
+  const render::SceneBuffers buffers(device(), scene);
+  std::mt19937 random(21);
+  std::normal_distribution<float> normal;
+  const auto anywhere = [&] { return glm::normalize(glm::vec3(normal(random), normal(random), normal(random))); };
+  for (const int stray_every : {1, 2 * 64}) {
+    std::vector<WorldRay> rays;
+    std::size_t strays = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        const int in_tiles = ((y / 8) * ((kWidth + 7) / 8) + x / 8) * 64 + (y % 8) * 8 + x % 8;
+        const bool stray = in_tiles % stray_every == 0;
+        strays += stray ? 1 : 0;
+        const glm::vec3 ahead(static_cast<float>(x) / kWidth - 0.5F, static_cast<float>(y) / kHeight - 0.5F, -1.0F);
+        const bool none = x % 7 == 3;
+        rays.push_back({glm::vec3(0.01F * static_cast<float>(x % 5), 0.0F, 0.02F * static_cast<float>(y % 3)),
+                        none ? glm::vec3(0.0F) : (stray ? anywhere() : glm::normalize(ahead))});
+      }
+    }
+    std::vector<WorldRay> traced = rays;
+    for (WorldRay& ray : traced) {
+      if (ray.direction == glm::vec3(0.0F)) ray.direction = {0.0F, 0.0F, 1.0F};
+    }
+    std::vector<support::EmbreePackets::Hit> expected(rays.size());
+    embree.intersect(traced, expected);
+    const auto hits = support::device_hits(device(), buffers, rays, kWidth, kHeight, Traversal::tile);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool none = rays[i].direction == glm::vec3(0.0F);
+      wrong += none || same_hit(scene, rays[i], hits.triangle[i], expected[i].triangle) ? 0 : 1;
+    }
+    EXPECT_LE(wrong, 2U);
+    EXPECT_GT(hits.left_out, strays / 2);
+    if (stray_every > 1) {
+      EXPECT_LT(hits.left_out, rays.size() / 2);
+    }
+  }
+}
+
+TEST(Traversals, MakeTheSamePicture) {
+  render::FrameConfig config;
+  config.width = kWidth;
+  config.height = kHeight;
+  config.keep_radiance = true;
+  config.keep_wavefront = true;
+  config.threshold_px = 0.0;
+  for (const Place& place : places()) {
+    render::Renderer by_ray(device(), place.scene, {.traversal = Traversal::per_ray});
+    render::Renderer by_tile(device(), place.scene, {.traversal = Traversal::tile});
+    for (const Glasses& glasses : all_glasses()) {
+      SCOPED_TRACE(place.name + ", " + glasses.name);
+      const auto pair = support::wear(lenses::Wearer{}, glasses.worn ? &*glasses.worn : nullptr, place.head);
+      const auto fov = tracking::FieldOfView::symmetric(80.0 * support::kDegree, double{kWidth} / kHeight);
+      const std::vector<render::ViewSetup> views{
+          support::view_along(pair, 0, render::Viewing::gaze, {0.1, -0.1, -1.0}, fov),
+          support::view_along(pair, 1, render::Viewing::gaze, {0.1, -0.1, -1.0}, fov)};
+      const auto expected = by_ray.render(pair.model, views, config);
+      const auto shown = by_tile.render(pair.model, views, config);
+      for (std::size_t v = 0; v < views.size(); ++v) {
+        const auto& a = expected.views[v].wavefront;
+        const auto& b = shown.views[v].wavefront;
+        std::size_t bits = 0, depths = 0;
+        for (std::size_t i = 0; i < a.depth.size(); ++i) {
+          const bool same = a.depth[i] == b.depth[i] && a.v_hh[i] == b.v_hh[i] && a.v_hv[i] == b.v_hv[i] &&
+                            a.v_vv[i] == b.v_vv[i] && a.blur[i] == b.blur[i];
+          bits += same ? 0 : 1;
+          depths += std::abs(a.depth[i] - b.depth[i]) <= 1e-5F * std::abs(a.depth[i]) ? 0 : 1;
+        }
+        // To the bit, but where two triangles meet a ray within rounding of each other: either may win. A ray through
+        // an edge may pass it in one test and not in the other.
+        EXPECT_LE(bits, a.depth.size() / 2000);
+        EXPECT_LE(depths, 1U);
+        std::size_t shown_otherwise = 0;
+        for (std::size_t i = 0; i < expected.views[v].radiance.size(); ++i) {
+          const float x = expected.views[v].radiance[i], y = shown.views[v].radiance[i];
+          shown_otherwise += std::abs(x - y) <= 2e-3F * (x + y) + 1e-4F ? 0 : 1;
+        }
+        // Blur spreads a pixel over its neighbours.
+        EXPECT_LE(shown_otherwise, expected.views[v].radiance.size() / 1000);
+      }
+    }
+  }
+}
+
+// What is measured once is read the next time, and obeyed.
+TEST(Traversals, AutomaticKeepsToItsRecord) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "vergence_traversal_test.txt";
+  std::filesystem::remove(file);
+  const Scene scene = scene_oracle::waves(30);
+  const auto pair = support::wear(lenses::Wearer{}, nullptr, tracking::Pose{});
+  const auto fov = tracking::FieldOfView::symmetric(60.0 * support::kDegree, 1.0);
+  const auto view = support::view_along(pair, 0, render::Viewing::gaze, {0.0, -0.3, -1.0}, fov);
+  render::FrameConfig config;
+  config.width = config.height = 64;
+  const auto traced_by_tile = [&] {
+    render::Renderer renderer(device(), scene, {.traversal_file = file});
+    const auto frame = renderer.render(pair.model, {view}, config);
+    return std::ranges::find(frame.stages, "tile", &render::vk::StageTime::name) != frame.stages.end();
+  };
+  const bool first = traced_by_tile();
+  const render::TraversalRecord record(file, device().name());
+  EXPECT_EQ(record.find(render::RayKind::bare), first ? Traversal::tile : Traversal::per_ray);
+  EXPECT_FALSE(record.find(render::RayKind::refracted));
+  record.keep(render::RayKind::bare, Traversal::per_ray);
+  EXPECT_FALSE(traced_by_tile());
+  record.keep(render::RayKind::bare, Traversal::tile);
+  EXPECT_TRUE(traced_by_tile());
+  std::filesystem::remove(file);
+}
+
+}  // namespace

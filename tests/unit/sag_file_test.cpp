@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -162,6 +163,21 @@ TEST(SagFile, ReadsTheSampleAsTheSurfaceItIs) {
   EXPECT_LT(to_stored.cylinder_max, 0.08);
   EXPECT_LT(fit.residual_max, 2e-9);
   EXPECT_LT(fit.power_noise(1.6), 0.002);
+}
+
+// The examples of the other two formats: a sphere of 100 mm, to 1 nm on a grid of 3 mm.
+TEST(SagFile, ReadsTheExamples) {
+  for (const std::string name : {"sphere_100mm.hmf", "sphere_100mm.xyz"}) {
+    const SagFile file = lenses::read_sag_file(VERGENCE_ASSETS "/lenses/" + name);
+    EXPECT_EQ(file.samples.points.size(), 21U * 21U);
+    const SurfaceProbe probe(fit_sag_file(file, name).surface);
+    for (const glm::dvec2 at : {glm::dvec2(0.0), glm::dvec2(0.011, -0.017)}) {
+      const double truth = 0.1 - std::sqrt(0.01 - at.x * at.x - at.y * at.y);
+      EXPECT_NEAR(probe.at(at.x, at.y).z, truth, 2e-9);
+      EXPECT_NEAR(probe.at(at.x, at.y).hessian.x,
+                  10.0 * (1.0 - 100.0 * at.y * at.y) / std::pow(1.0 - 100.0 * dot(at, at), 1.5), 0.01);
+    }
+  }
 }
 
 TEST(SagFile, GivesALensItsSurface) {

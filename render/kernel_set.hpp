@@ -14,6 +14,7 @@ enum class Stage : std::uint32_t {
   rays,
   unsettled,
   tile,
+  ray_query,
   left_out,
   chief,
   find_edges,
@@ -32,7 +33,7 @@ struct TraceVariant {
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
   bool bare = false;   // one light, no shadow rays
-  bool found = false;  // what chief rays meet was found by Stage::tile
+  bool found = false;  // what chief rays meet was found by Stage::tile or Stage::ray_query
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.

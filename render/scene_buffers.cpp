@@ -205,9 +205,9 @@ SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene, Parts&& parts
 // From what the other traversals test, so that all meet the same corners but for the rounding of an edge's end.
 const vk::Acceleration& SceneBuffers::acceleration(const vk::Device& device) const {
   if (!acceleration_) {
-    const auto triangles = bvh_triangles.read<glm::vec4>(triangle_count * kBvhTriangleTexels);
+    const auto triangles = bvh_triangles.read<glm::vec4>(bvh_triangles.bytes() / sizeof(glm::vec4));
     std::vector<float> corners;
-    corners.reserve(9 * triangle_count);
+    corners.reserve(9 * triangles.size() / kBvhTriangleTexels);
     for (std::size_t i = 0; i < triangles.size(); i += kBvhTriangleTexels) {
       const glm::vec3 a(triangles[i]);
       for (const glm::vec3& corner : {a, a + glm::vec3(triangles[i + 1]), a + glm::vec3(triangles[i + 2])}) {

@@ -212,7 +212,8 @@ TEST(Traversals, HandOnWhatFliesApart) {
 
 // To the bit, but where two triangles meet a ray within rounding of each other: either may win. A ray through an edge
 // may pass it in one test and not in the other.
-void expect_same_picture(const render::RenderedFrame& expected, const render::RenderedFrame& shown) {
+void expect_same_picture(const std::string& name, const render::RenderedFrame& expected,
+                         const render::RenderedFrame& shown) {
   for (std::size_t v = 0; v < expected.views.size(); ++v) {
     const auto& a = expected.views[v].wavefront;
     const auto& b = shown.views[v].wavefront;
@@ -230,7 +231,7 @@ void expect_same_picture(const render::RenderedFrame& expected, const render::Re
       const float x = expected.views[v].radiance[i], y = shown.views[v].radiance[i];
       shown_otherwise += std::abs(x - y) <= 2e-3F * (x + y) + 1e-4F ? 0 : 1;
     }
-    std::cout << bits << " of " << a.depth.size() << " pixels differ in some bit, " << shown_otherwise
+    std::cout << name << ": " << bits << " of " << a.depth.size() << " pixels differ in some bit, " << shown_otherwise
               << " are seen to\n";
     // Blur spreads a pixel over its neighbours.
     EXPECT_LE(shown_otherwise, expected.views[v].radiance.size() / 1000);
@@ -260,7 +261,7 @@ TEST(Traversals, MakeTheSamePicture) {
       const auto expected = by_ray.render(pair.model, views, config);
       for (auto& [name, renderer] : others) {
         SCOPED_TRACE(place.name + ", " + glasses.name + ", " + name);
-        expect_same_picture(expected, renderer.render(pair.model, views, config));
+        expect_same_picture(name, expected, renderer.render(pair.model, views, config));
       }
     }
   }

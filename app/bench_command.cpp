@@ -215,9 +215,9 @@ Action add_bench_command(CLI::App& program) {
   command
       ->add_option(
           "--traversal", options->traversal,
-          "How chief rays find the scene: automatic (the fastest by a measurement that is kept), per_ray, tile,\n"
-          "or ray_query where the device has VK_KHR_ray_query: correct on Mesa 25's lavapipe, where it is slow,\n"
-          "and unproven on other devices")
+          "How chief rays find the scene: automatic (the fastest by a measurement\nthat is kept), per_ray, tile, or "
+          "ray_query where the device has\nVK_KHR_ray_query: correct on Mesa 25's lavapipe, where it is slow;\n"
+          "unproven on other devices")
       ->check(CLI::IsMember({"automatic", "per_ray", "tile", "ray_query"}))
       ->capture_default_str();
   command->add_option("--rounds", options->rounds, "How often each frame is timed")->capture_default_str();

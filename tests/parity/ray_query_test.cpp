@@ -2,6 +2,7 @@
 // hits is traversal_test, which runs there too.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "render/vk/acceleration.hpp"
@@ -107,6 +108,16 @@ TEST(RayQueries, StateTheMemoryOfTheirStructure) {
   std::cout << bytes / scene.triangles.size() << " bytes a triangle\n";
   EXPECT_GT(bytes, 36 * scene.triangles.size()) << "less than the corners";
   EXPECT_EQ(&buffers.acceleration(device()), &buffers.acceleration(device())) << "built twice";
+}
+
+TEST(RayQueries, RefuseABufferWithoutAStructure) {
+  render::KernelSet kernels(device());
+  const render::vk::Kernel& kernel = kernels.get(render::Stage::ray_query);
+  const render::vk::Buffer plain(device(), 1024, render::vk::Memory::device);
+  const std::vector<const render::vk::Buffer*> buffers(15, &plain);
+  render::vk::Commands commands(device());
+  EXPECT_THROW(commands.dispatch(kernel, buffers, render::vk::bytes_of(render::gpu::FrameData{}), 1),
+               std::invalid_argument);
 }
 
 TEST(RayQueries, AreSilentlyValid) {

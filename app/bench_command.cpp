@@ -113,9 +113,10 @@ BenchConfig config_of(const BenchOptions& options) {
   config.exposure = options.picture.exposure;
   config.seed = options.seed;
   config.device = options.device;
-  config.traversal = options.traversal == "tile"      ? render::Traversal::tile
-                     : options.traversal == "per_ray" ? render::Traversal::per_ray
-                                                      : render::Traversal::automatic;
+  config.traversal = options.traversal == "tile"        ? render::Traversal::tile
+                     : options.traversal == "per_ray"   ? render::Traversal::per_ray
+                     : options.traversal == "ray_query" ? render::Traversal::ray_query
+                                                        : render::Traversal::automatic;
   return config;
 }
 
@@ -228,10 +229,12 @@ Action add_bench_command(CLI::App& program) {
                    "bare (as the paper), full, or both: bare rows of every mode,\nfull ones of adof")
       ->capture_default_str();
   command
-      ->add_option("--traversal", options->traversal,
-                   "How chief rays find the scene: automatic (the faster by a measurement that is kept), per_ray or "
-                   "tile")
-      ->check(CLI::IsMember({"automatic", "per_ray", "tile"}))
+      ->add_option(
+          "--traversal", options->traversal,
+          "How chief rays find the scene: automatic (the fastest by a measurement\nthat is kept), per_ray, tile, or "
+          "ray_query where the device has\nVK_KHR_ray_query: correct on Mesa 25's lavapipe, where it is slow;\n"
+          "unproven on other devices")
+      ->check(CLI::IsMember({"automatic", "per_ray", "tile", "ray_query"}))
       ->capture_default_str();
   command->add_option("--rounds", options->rounds, "How often each frame is timed")->capture_default_str();
   command->add_option("--seed", options->seed, "Of the sampling pattern (dof)")->capture_default_str();

@@ -62,6 +62,9 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
   }
+  if (traversal == Traversal::ray_query) {
+    accelerated_ = &scene.acceleration(device).top;
+  }
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
   data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
   // A pinhole picture is the defocused one with nothing left to blur.
@@ -78,7 +81,7 @@ void FrameJob::record_trace(vk::Commands& commands) {
   if (traversal_ == Traversal::per_ray) {
     trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
   } else {
-    find_hits_by_tile(commands);
+    find_hits(commands);
     trace_with(commands, Stage::found,
                {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions});
   }
@@ -100,19 +103,24 @@ void FrameJob::aim(vk::Commands& commands) {
   }
 }
 
-void FrameJob::find_hits_by_tile(vk::Commands& commands) {
+void FrameJob::find_hits(vk::Commands& commands) {
   aim(commands);
   commands.timestamp("rays");
   commands.barrier();
   empty_list(commands);
   commands.barrier();
-  dispatch(
-      commands, kernels_.get(Stage::tile, variant_),
-      {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
+  if (accelerated_ != nullptr) {
+    dispatch(commands, kernels_.get(Stage::ray_query, variant_),
+             with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list, accelerated_}));
+  } else {
+    dispatch(
+        commands, kernels_.get(Stage::tile, variant_),
+        {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
+  }
   commands.barrier();
   dispatch_list(commands, kernels_.get(Stage::left_out, variant_),
                 with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list}));
-  commands.timestamp("tile");
+  commands.timestamp(accelerated_ != nullptr ? "ray_query" : "tile");
   commands.barrier();
 }
 

@@ -14,7 +14,7 @@ namespace render {
 
 class FrameJob {
  public:
-  // What is referred to must outlive the job. traversal: per_ray or tile.
+  // What is referred to must outlive the job. traversal: not automatic.
   FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
            const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
            Traversal traversal);
@@ -31,7 +31,7 @@ class FrameJob {
   using Buffers = std::vector<const vk::Buffer*>;
 
   void aim(vk::Commands& commands);
-  void find_hits_by_tile(vk::Commands& commands);
+  void find_hits(vk::Commands& commands);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
@@ -44,6 +44,7 @@ class FrameJob {
   FrameBuffers& out_;
   const FrameConfig& config_;
   Traversal traversal_;
+  const vk::Buffer* accelerated_ = nullptr;  // where rays are traced by ray queries
   vk::Buffer table_, views_;
   TraceVariant variant_;
   gpu::FrameData data_{};

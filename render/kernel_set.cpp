@@ -15,6 +15,7 @@
 #include "shaders/find_edges.hpp"
 #include "shaders/found.hpp"
 #include "shaders/left_out.hpp"
+#include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
 #include "shaders/tile.hpp"
 #include "shaders/unsettled.hpp"
@@ -57,6 +58,10 @@ Recipe recipe_of(Stage stage) {
               shaders::tile,
               {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
               Constants::lanes_and_features};
+    case Stage::ray_query:
+      return {"ray_query", shaders::ray_query,
+              scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer, acceleration_structure}),
+              Constants::scene};
     case Stage::left_out:
       return {"left_out", shaders::left_out,
               scene_and(0, {texel_rgba32f, texel_rgba32f, storage_buffer, storage_buffer}), Constants::scene};

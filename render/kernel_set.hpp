@@ -14,6 +14,7 @@ enum class Stage : std::uint32_t {
   rays,
   unsettled,
   tile,
+  ray_query,
   left_out,
   chief,
   found,

@@ -46,7 +46,7 @@ void add_times(std::vector<vk::StageTime>& sum, const std::vector<vk::StageTime>
 
 struct Renderer::State {
   State(vk::Device& d, const Scene& scene, const RendererConfig& config)
-      : device(d), buffers(d, scene), kernels(d), choice(config) {}
+      : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
   RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
@@ -55,7 +55,7 @@ struct Renderer::State {
     FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
                                        .wavefront = keeps_wavefront(config),
                                        .sums = config.mode == Mode::dof,
-                                       .hits = traversal == Traversal::tile});
+                                       .hits = traversal != Traversal::per_ray});
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
@@ -124,9 +124,9 @@ struct Renderer::State {
   }
 
   vk::Device& device;
+  TraversalChoice choice;  // before the scene: it refuses what the device cannot
   SceneBuffers buffers;
   KernelSet kernels;
-  TraversalChoice choice;
   std::unique_ptr<FrameBuffers> frame;
 };
 

@@ -202,4 +202,21 @@ SceneBuffers::SceneBuffers(vk::Device& device, const Scene& scene, Parts&& parts
       triangle_count(scene.triangles.size()),
       features(parts.packed.features) {}
 
+// From what the other traversals test, so that all meet the same corners but for the rounding of an edge's end.
+const vk::Acceleration& SceneBuffers::acceleration(const vk::Device& device) const {
+  if (!acceleration_) {
+    const auto triangles = bvh_triangles.read<glm::vec4>(bvh_triangles.bytes() / sizeof(glm::vec4));
+    std::vector<float> corners;
+    corners.reserve(9 * triangles.size() / kBvhTriangleTexels);
+    for (std::size_t i = 0; i < triangles.size(); i += kBvhTriangleTexels) {
+      const glm::vec3 a(triangles[i]);
+      for (const glm::vec3& corner : {a, a + glm::vec3(triangles[i + 1]), a + glm::vec3(triangles[i + 2])}) {
+        corners.insert(corners.end(), {corner.x, corner.y, corner.z});
+      }
+    }
+    acceleration_ = vk::build_acceleration(device, corners);
+  }
+  return *acceleration_;
+}
+
 }  // namespace render

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "render/scene/bvh.hpp"
 #include "render/scene/scene.hpp"
+#include "render/vk/acceleration.hpp"
 #include "render/vk/buffer.hpp"
 #include "render/vk/device.hpp"
 
@@ -19,9 +21,15 @@ struct SceneBuffers {
   std::size_t triangle_count = 0;
   std::uint32_t features = 0;  // kFeature... of shaders/view.h: what kernels must know for this scene
 
+  // For Stage::ray_query; built when first asked for, kept until dropped.
+  [[nodiscard]] const vk::Acceleration& acceleration(const vk::Device& device) const;
+  void drop_acceleration() const { acceleration_.reset(); }
+
  private:
   struct Parts;
   SceneBuffers(vk::Device& device, const Scene& scene, Parts&& parts);
+
+  mutable std::optional<vk::Acceleration> acceleration_;
 };
 
 // Uploads values; an empty list becomes one zeroed element, because a shader's buffer may not be empty.

@@ -18,10 +18,14 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
+constexpr Traversal kKept[] = {Traversal::per_ray, Traversal::tile, Traversal::ray_query};
+
 }  // namespace
 
 std::string TraversalRecord::line(RayKind kind, Traversal traversal) const {
-  std::string text = traversal == Traversal::tile ? "tile " : "per_ray ";
+  std::string text = traversal == Traversal::ray_query ? "ray_query "
+                     : traversal == Traversal::tile    ? "tile "
+                                                       : "per_ray ";
   text += kind == RayKind::bare ? "bare " : "refracted ";
   text += device_;
   return text;
@@ -32,7 +36,7 @@ std::optional<Traversal> TraversalRecord::find(RayKind kind) const {
     return std::nullopt;
   }
   for (const std::string& text : lines_of(file_)) {
-    for (const Traversal traversal : {Traversal::per_ray, Traversal::tile}) {
+    for (const Traversal traversal : kKept) {
       if (text == line(kind, traversal)) {
         return traversal;
       }
@@ -46,7 +50,7 @@ void TraversalRecord::keep(RayKind kind, Traversal traversal) const {
     return;
   }
   std::vector<std::string> lines = lines_of(file_);
-  for (const Traversal old : {Traversal::per_ray, Traversal::tile}) {
+  for (const Traversal old : kKept) {
     std::erase(lines, line(kind, old));
   }
   lines.push_back(line(kind, traversal));

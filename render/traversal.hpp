@@ -11,6 +11,7 @@ enum class Traversal {
   automatic,  // what a short measurement finds faster on this device
   per_ray,    // each ray by itself through the 4-wide tree
   tile,       // 8 x 8 rays together through the 8-wide tree; where the device cannot, per ray
+  ray_query,  // by the device's own ray queries; a renderer on a device without them throws vk::DeviceError
 };
 
 struct RendererConfig {

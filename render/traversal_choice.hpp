@@ -11,9 +11,10 @@ namespace render {
 
 class TraversalChoice {
  public:
-  explicit TraversalChoice(RendererConfig config) : config_(std::move(config)) {}
+  // Asked for ray queries on a device without them: vk::DeviceError.
+  TraversalChoice(const vk::Device& device, RendererConfig config);
 
-  // per_ray or tile. Measures the first time that a device traces this kind of ray.
+  // Never automatic. Measures the first time that a device traces this kind of ray.
   [[nodiscard]] Traversal for_frame(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels,
                                     const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                     const FrameConfig& frame);

@@ -75,12 +75,16 @@ std::string ratios_of_size(const BenchReport& report, int size) {
   const PeerRow* plain_peer = find_peer(report, "none", size);
   const PeerRow* spline_peer = find_peer(report, "bspline/sphere", size);
   if (pinhole != nullptr && plain_peer != nullptr && pinhole->stage("trace") > 0.0) {
-    // Both in millions of rays a second. A tile's stage finds hits and no more; the per-ray one shades them too.
-    const double tile = pinhole->stage("tile");
-    const double ours = pinhole->pixels() / (tile > 0.0 ? tile : pinhole->stage("trace")) * 1e-3;
+    // Both in millions of rays a second. These stages find hits and no more; the per-ray one shades them too.
+    const double tile = pinhole->stage("tile"), query = pinhole->stage("ray_query");
+    const double alone = tile > 0.0 ? tile : query;
+    const double ours = pinhole->pixels() / (alone > 0.0 ? alone : pinhole->stage("trace")) * 1e-3;
     const double peer = static_cast<double>(plain_peer->rays) / plain_peer->ms.median * 1e-3;
     out += format("  scene rays: %.1f M/s (%s of none/pin), Embree16 %.1f M/s: %.2f of it\n", ours,
-                  tile > 0.0 ? "tile stage" : "trace stage, shading included,", peer, ours / peer);
+                  tile > 0.0    ? "tile stage"
+                  : query > 0.0 ? "ray query stage"
+                                : "trace stage, shading included,",
+                  peer, ours / peer);
   }
   const BenchRow* fine = find(report, kFineNetLens, "adof", size, "bare");
   if (plain != nullptr && spline != nullptr && plain->ms.median > 0.0) {

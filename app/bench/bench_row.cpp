@@ -111,14 +111,12 @@ std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> p
 
 std::string rows_csv(std::span<const BenchRow> rows, std::span<const PeerRow> peers) {
   std::ostringstream out;
-  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,processor_ms,rays_ms,tile_ms,trace_ms,edges_ms,"
-         "blur_ms,"
-         "samples_ms,encode_ms,"
-         "embree16_ms,embree16_processor_ms,paper_fps_at_1024,device\n";
+  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,processor_ms,rays_ms,tile_ms,ray_query_ms,trace_ms,"
+         "edges_ms,blur_ms,samples_ms,encode_ms,embree16_ms,embree16_processor_ms,paper_fps_at_1024,device\n";
   for (const BenchRow& row : rows) {
     out << field(row.lens) << ',' << row.mode << ',' << row.size << ',' << row.shading << ',' << row.triangles << ','
         << row.ms.median << ',' << row.ms.min << ',' << row.ms.max << ',' << row.fps() << ',' << row.cpu.median;
-    for (const char* stage : {"rays", "tile", "trace", "edges", "blur", "samples", "encode"}) {
+    for (const char* stage : {"rays", "tile", "ray_query", "trace", "edges", "blur", "samples", "encode"}) {
       out << ',' << row.stage(stage);
     }
     const PeerRow* peer = peer_of(row, peers);

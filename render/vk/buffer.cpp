@@ -63,9 +63,11 @@ std::vector<std::uint32_t> candidates(const ::vk::PhysicalDeviceMemoryProperties
   return types;
 }
 
-std::optional<raii::DeviceMemory> try_allocate(const raii::Device& device, ::vk::DeviceSize bytes, std::uint32_t type) {
+std::optional<raii::DeviceMemory> try_allocate(const raii::Device& device, ::vk::DeviceSize bytes, std::uint32_t type,
+                                               bool has_address) {
+  const ::vk::MemoryAllocateFlagsInfo addressed(::vk::MemoryAllocateFlagBits::eDeviceAddress);
   try {
-    return raii::DeviceMemory(device, {bytes, type});
+    return raii::DeviceMemory(device, {bytes, type, has_address ? &addressed : nullptr});
   } catch (const ::vk::OutOfDeviceMemoryError&) {
     return std::nullopt;  // another heap may have room
   }
@@ -87,25 +89,27 @@ void copy_now(const BufferState& from, const BufferState& to, ::vk::BufferCopy r
 
 }  // namespace
 
-BufferState::BufferState(std::shared_ptr<DeviceState> owner, std::size_t wanted, Memory kind)
+BufferState::BufferState(std::shared_ptr<DeviceState> owner, std::size_t wanted, Memory kind,
+                         ::vk::BufferUsageFlags more_usage)
     : device(std::move(owner)),
       bytes(wanted),
       allocated(std::max(kGranule, (wanted + kGranule - 1) / kGranule * kGranule)) {
   const std::size_t limit = device->limits.max_storage_buffer_bytes;
-  if (bytes > limit) {
+  if (!more_usage && bytes > limit) {
     throw DeviceError("a buffer of " + std::to_string(bytes) + " bytes is more than " + device->name + " allows, " +
                       std::to_string(limit));
   }
   using Usage = ::vk::BufferUsageFlagBits;
   const auto usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eUniformTexelBuffer | Usage::eTransferSrc |
-                     Usage::eTransferDst | Usage::eIndirectBuffer;
+                     Usage::eTransferDst | Usage::eIndirectBuffer | more_usage;
+  const bool has_address = bool(more_usage & Usage::eShaderDeviceAddress);
   const std::string what = "allocating a buffer of " + std::to_string(bytes) + " bytes on " + device->name;
   guarded(what, [&] {
     buffer = {device->device, ::vk::BufferCreateInfo({}, allocated, usage)};
     const auto needs = buffer.getMemoryRequirements();
     const auto properties = device->physical.getMemoryProperties();
     for (const std::uint32_t type : candidates(properties, needs.memoryTypeBits, kind)) {
-      auto found = try_allocate(device->device, needs.size, type);
+      auto found = try_allocate(device->device, needs.size, type, has_address);
       if (!found) continue;
       memory = std::move(*found);
       buffer.bindMemory(*memory, 0);

@@ -51,6 +51,7 @@ class Buffer {
   }
 
   // For the other files of this folder.
+  explicit Buffer(std::shared_ptr<BufferState> state) : state_(std::move(state)) {}
   [[nodiscard]] const std::shared_ptr<BufferState>& state() const { return state_; }
 
  private:

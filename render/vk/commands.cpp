@@ -74,6 +74,9 @@ void check_dispatch(const KernelState& kernel, std::span<const Buffer* const> bu
       throw DeviceError(place(kernel, i) + ": a uniform buffer of " + std::to_string(bytes) + " bytes is more than " +
                         kernel.device->name + " allows, " + std::to_string(limit));
     }
+    if (kernel.bindings[i] == Binding::acceleration_structure && !*buffers[i]->state()->structure) {
+      throw std::invalid_argument(place(kernel, i) + ": the buffer holds no acceleration structure");
+    }
   }
 }
 
@@ -99,6 +102,7 @@ raii::DescriptorPool pool_for(const raii::Device& device, const KernelState& ker
   const ::vk::DescriptorSet set = allocate_set(commands, kernel);
   std::vector<::vk::DescriptorBufferInfo> infos(buffers.size());
   std::vector<::vk::BufferView> views(buffers.size());
+  std::vector<::vk::WriteDescriptorSetAccelerationStructureKHR> structures(buffers.size());
   std::vector<::vk::WriteDescriptorSet> writes;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const BufferState& buffer = *buffers[i]->state();
@@ -108,6 +112,9 @@ raii::DescriptorPool pool_for(const raii::Device& device, const KernelState& ker
       commands.views.push_back(texel_view(*commands.device, buffer, kernel.bindings[i], place(kernel, i)));
       views[i] = *commands.views.back();
       write.setPTexelBufferView(&views[i]);
+    } else if (type == ::vk::DescriptorType::eAccelerationStructureKHR) {
+      structures[i].setAccelerationStructures(*buffer.structure);
+      write.setPNext(&structures[i]);
     } else {
       infos[i] = ::vk::DescriptorBufferInfo(*buffer.buffer, 0, buffer.bytes == 0 ? buffer.allocated : buffer.bytes);
       write.setPBufferInfo(&infos[i]);

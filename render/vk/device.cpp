@@ -1,6 +1,9 @@
 #include "render/vk/device.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <string_view>
 
 #include "render/vk/handles.hpp"
 #include "render/vk/pipeline_cache.hpp"
@@ -34,11 +37,30 @@ DeviceLimits limits_of(const raii::PhysicalDevice& physical, const ::vk::QueueFa
   return limits;
 }
 
-using FeatureChain = ::vk::StructureChain<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features>;
+using FeatureChain =
+    ::vk::StructureChain<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features,
+                         ::vk::PhysicalDeviceAccelerationStructureFeaturesKHR, ::vk::PhysicalDeviceRayQueryFeaturesKHR>;
+
+constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                         VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+
+bool has_ray_query(const raii::PhysicalDevice& physical) {
+  const auto extensions = physical.enumerateDeviceExtensionProperties();
+  const auto is_offered = [&](std::string_view name) {
+    return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName.data(); });
+  };
+  if (!std::ranges::all_of(kRayQueryExtensions, is_offered)) return false;
+  const auto offered = physical.getFeatures2<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features,
+                                             ::vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                                             ::vk::PhysicalDeviceRayQueryFeaturesKHR>();
+  return offered.get<::vk::PhysicalDeviceVulkan12Features>().bufferDeviceAddress &&
+         offered.get<::vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure &&
+         offered.get<::vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery;
+}
 
 // Of what the device offers, what the shaders may use: the parity tests want doubles, the structs shared by C++ and
 // GLSL scalar layout.
-FeatureChain features_to_enable(const raii::PhysicalDevice& physical) {
+FeatureChain features_to_enable(const raii::PhysicalDevice& physical, bool ray_query) {
   const auto offered = physical.getFeatures2<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features>();
   const auto& core = offered.get<::vk::PhysicalDeviceFeatures2>().features;
   const auto& core12 = offered.get<::vk::PhysicalDeviceVulkan12Features>();
@@ -47,16 +69,24 @@ FeatureChain features_to_enable(const raii::PhysicalDevice& physical) {
   wanted.get<::vk::PhysicalDeviceFeatures2>().features.setShaderInt64(core.shaderInt64);
   wanted.get<::vk::PhysicalDeviceVulkan12Features>()
       .setScalarBlockLayout(core12.scalarBlockLayout)
-      .setUniformBufferStandardLayout(core12.uniformBufferStandardLayout);
+      .setUniformBufferStandardLayout(core12.uniformBufferStandardLayout)
+      .setBufferDeviceAddress(ray_query);
+  wanted.get<::vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().setAccelerationStructure(VK_TRUE);
+  wanted.get<::vk::PhysicalDeviceRayQueryFeaturesKHR>().setRayQuery(VK_TRUE);
+  if (!ray_query) {
+    wanted.unlink<::vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
+    wanted.unlink<::vk::PhysicalDeviceRayQueryFeaturesKHR>();
+  }
   return wanted;
 }
 
 raii::Device create_device(const raii::PhysicalDevice& physical, std::uint32_t queue_family,
-                           const FeatureChain& features) {
+                           const FeatureChain& features, bool ray_query) {
   const float priority = 1.0F;
   const ::vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
   ::vk::DeviceCreateInfo info({}, queue);
   info.setPNext(&features.get<::vk::PhysicalDeviceFeatures2>());
+  if (ray_query) info.setPEnabledExtensionNames(kRayQueryExtensions);
   return {physical, info};
 }
 
@@ -75,9 +105,11 @@ DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(
   const std::uint32_t bits = family.timestampValidBits;
   timestamp_mask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
   guarded("opening the device " + name, [&] {
-    const FeatureChain features = features_to_enable(physical);
+    const bool ray_query = has_ray_query(physical);
+    const FeatureChain features = features_to_enable(physical, ray_query);
     limits = limits_of(physical, family, bool(features.get<::vk::PhysicalDeviceFeatures2>().features.shaderFloat64));
-    device = create_device(physical, queue_family, features);
+    limits.has_ray_query = ray_query;
+    device = create_device(physical, queue_family, features, ray_query);
     queue = device.getQueue(queue_family, 0);
     pool = {device, {::vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family}};
     std::vector<std::uint8_t> cached;

@@ -47,6 +47,7 @@ struct DeviceLimits {
   double timestamp_period_ns = 0.0;      // 0: the queue has no timestamps
   bool has_float64 = false;
   bool on_processor = false;  // the driver computes on the CPU
+  bool has_ray_query = false;  // VK_KHR_ray_query, and what its acceleration structures need
 };
 
 struct StageTime {

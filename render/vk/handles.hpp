@@ -95,15 +95,19 @@ struct DeviceState {
 };
 
 struct BufferState {
-  BufferState(std::shared_ptr<DeviceState> device, std::size_t bytes, Memory memory);
+  // more_usage: what a buffer of ray queries is for besides; it is then not bound as storage, whose limit it may pass.
+  BufferState(std::shared_ptr<DeviceState> device, std::size_t bytes, Memory memory,
+              ::vk::BufferUsageFlags more_usage = {});
 
   std::shared_ptr<DeviceState> device;
   std::size_t bytes = 0;      // as asked for
   std::size_t allocated = 0;  // of the Vulkan buffer
   raii::DeviceMemory memory = nullptr;
   raii::Buffer buffer = nullptr;
-  std::byte* mapped = nullptr;  // null: not host-visible
-  bool cached = false;          // the host reads it fast
+  std::byte* mapped = nullptr;                         // null: not host-visible
+  bool cached = false;                                 // the host reads it fast
+  raii::AccelerationStructureKHR structure = nullptr;  // that lies in this buffer
+  std::shared_ptr<const BufferState> below;            // what the structure refers to
 };
 
 struct KernelState {

@@ -51,6 +51,8 @@ raii::Pipeline create_pipeline(const DeviceState& state, const raii::PipelineLay
     case Binding::texel_r32ui:
     case Binding::texel_rgba8_unorm:
       return ::vk::DescriptorType::eUniformTexelBuffer;
+    case Binding::acceleration_structure:
+      return ::vk::DescriptorType::eAccelerationStructureKHR;
   }
   throw std::invalid_argument("unknown binding");
 }

@@ -21,7 +21,8 @@ enum class Binding {
   texel_rgba32ui,
   texel_rg32ui,
   texel_r32ui,
-  texel_rgba8_unorm
+  texel_rgba8_unorm,
+  acceleration_structure  // Acceleration::top
 };
 
 class Kernel {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "render/vk/device.hpp"
 #include "tests/support/cluttered_room.hpp"
@@ -40,6 +41,13 @@ void bench(render::vk::Device& device, const char* scene_name, const render::Sce
   const support::EmbreePackets embree(scene);
   render::Renderer per_ray(device, scene, {.traversal = render::Traversal::per_ray});
   render::Renderer tile(device, scene, {.traversal = render::Traversal::tile});
+  std::vector<std::pair<const char*, render::Renderer*>> renderers{{"per_ray", &per_ray}, {"tile", &tile}};
+  std::optional<render::Renderer> ray_query;
+  if (device.limits().has_ray_query) {
+    renderers.emplace_back(
+        "ray_query",
+        &ray_query.emplace(device, scene, render::RendererConfig{.traversal = render::Traversal::ray_query}));
+  }
   const tracking::Pose head = scene.start_pose.value_or(tracking::Pose{});
   const auto progressive = lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_sphere.json");
   for (const bool worn : {false, true}) {
@@ -60,7 +68,7 @@ void bench(render::vk::Device& device, const char* scene_name, const render::Sce
     for (int round = -1; round < rounds; ++round) {
       const double ms = embree.intersect(rays, hits);
       if (round >= 0) peer.push_back(ms);
-      for (const auto& [name, renderer] : {std::pair{"per_ray", &per_ray}, std::pair{"tile", &tile}}) {
+      for (const auto& [name, renderer] : renderers) {
         const auto frame = renderer->render(pair.model, {view}, config);
         double all = 0.0;
         for (const auto& stage : frame.stages) {
@@ -76,7 +84,7 @@ void bench(render::vk::Device& device, const char* scene_name, const render::Sce
                 scene.triangles.size(), worn ? "bspline/sphere" : "none", size, size, reference,
                 *std::min_element(peer.begin(), peer.end()), count / reference / 1e3);
     for (const auto& [name, stages] : times) {
-      std::printf("  %-8s", name.c_str());
+      std::printf("  %-9s", name.c_str());
       for (const auto& [stage, list] : stages)
         std::printf(" %s %.1f (%.1f)", stage.c_str(), median(list), *std::min_element(list.begin(), list.end()));
       std::printf("  frame/Embree %.2f\n", median(stages.at("all")) / reference);

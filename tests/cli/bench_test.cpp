@@ -86,6 +86,22 @@ TEST(Bench, TimesPairsOfTheUsersUnderSharedOptions) {
   EXPECT_EQ(seen, expected);
 }
 
+// A device without ray queries says so; one with them traces by them.
+TEST(Bench, RayQueriesRunOrAreRefused) {
+  const auto result =
+      support::run_program({.arguments = {"bench", "--scene", kRoom, "--size", "16", "--rounds", "1", "--lens", "none",
+                                          "--mode", "pin", "--shading", "bare", "--traversal", "ray_query", "--json"},
+                            .time_limit = std::chrono::seconds(300)});
+  if (result.exit_status == 0) {
+    EXPECT_TRUE(json::parse(result.out).at(0)["stages_ms"].contains("ray_query"));
+  } else {
+    EXPECT_EQ(result.exit_status, 1);
+    EXPECT_TRUE(result.err.starts_with("vergence: --device: ")) << result.err;
+    EXPECT_NE(result.err.find("VK_KHR_ray_query"), std::string::npos) << result.err;
+    EXPECT_TRUE(result.out.empty());
+  }
+}
+
 TEST(Bench, RefusesWhatItDoesNotKnow) {
   const std::vector<std::vector<std::string>> bad{{"--lens", "sphere/cube"}, {"--mode", "adof,,pin"},
                                                   {"--size", "0"},           {"--size", "512x512"},
@@ -94,7 +110,7 @@ TEST(Bench, RefusesWhatItDoesNotKnow) {
                                                   {"--mode", "blur"},        {"--spectacles", "/none.json"},
                                                   {"--look-at", "nobody"},   {"--accuracy", "most"},
                                                   {"--exposure", "99"},      {"--lens", "none", "--figures", "x"},
-                                                  {"--eye", "left"}};
+                                                  {"--eye", "left"},         {"--traversal", "best"}};
   for (const auto& options : bad) {
     std::vector<std::string> arguments{"bench", "--scene", kRoom};
     arguments.insert(arguments.end(), options.begin(), options.end());

@@ -17,7 +17,7 @@ namespace support {
 
 struct DeviceHits {
   std::vector<std::uint32_t> triangle;  // index into Scene::triangles; ~0 for a miss
-  std::size_t left_out = 0;             // rays that the tile traversal handed on
+  std::size_t left_out = 0;             // rays that the traversal handed on
 };
 
 // rays: width * height, row by row, direction zero where there is none.
@@ -65,6 +65,13 @@ inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuf
       &scene.texels,    &views,           &scene.environment,   &scene.lights,
       &scene.materials, &scene.textures,  &buffers.ray_origins, &buffers.ray_directions,
       &buffers.hits,    &buffers.list};
+  if (traversal == render::Traversal::ray_query) {
+    std::vector<const render::vk::Buffer*> and_structure = all;
+    and_structure.push_back(&scene.acceleration(device).top);
+    commands.dispatch(kernels.get(render::Stage::ray_query, variant), and_structure, render::vk::bytes_of(frame),
+                      static_cast<std::uint32_t>(width + 7) / 8, static_cast<std::uint32_t>(height + 7) / 8);
+    commands.barrier();
+  }
   commands.dispatch_indirect(kernels.get(render::Stage::left_out, variant), all, render::vk::bytes_of(frame),
                              buffers.list);
   device.run(commands);

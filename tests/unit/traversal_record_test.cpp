@@ -33,6 +33,8 @@ TEST_F(TraversalFile, KeepsOneChoiceADeviceAndKind) {
   EXPECT_EQ(other.find(RayKind::bare), Traversal::per_ray);
   EXPECT_EQ(one.find(RayKind::refracted), Traversal::per_ray);
   EXPECT_FALSE(other.find(RayKind::refracted));
+  one.keep(RayKind::bare, Traversal::ray_query);
+  EXPECT_EQ(one.find(RayKind::bare), Traversal::ray_query);
   one.keep(RayKind::bare, Traversal::per_ray);
   EXPECT_EQ(one.find(RayKind::bare), Traversal::per_ray);
   std::ifstream in(file_);

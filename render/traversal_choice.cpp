@@ -97,8 +97,8 @@ Traversal TraversalChoice::for_frame(vk::Device& device, const SceneBuffers& sce
   std::optional<Traversal> choice = record.find(kind);
   if (!choice || !is_possible(*choice)) {  // another driver may go by the same name
     FrameConfig small = frame;
-    small.width = std::min(small.width, kMeasuredSide);
-    small.height = std::min(small.height, kMeasuredSide);
+    small.width = kMeasuredSide;  // whatever frame happens to be the first
+    small.height = kMeasuredSide;
     std::list<TimedTrace> traces;  // they stay where they are
     for (const Traversal traversal : possible) {
       try {

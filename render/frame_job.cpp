@@ -120,7 +120,7 @@ void FrameJob::record_edges(vk::Commands& commands) {
     empty_list(commands, out_.list);
     empty_list(commands, out_.doubtful);
     dispatch_squares(commands, kernels_.get(Stage::beam_blocks, variant_),
-                    with_scene({&out_.blocks, &out_.pixels, &out_.keys}), gpu::kBeamBlock);
+                     with_scene({&out_.blocks, &out_.pixels, &out_.keys}), gpu::kBeamBlock);
     commands.barrier();
     dispatch_view(commands, kernels_.get(Stage::find_edges),
                   {&out_.pixels, &out_.keys, &out_.blocks, &out_.list, &out_.doubtful});

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The listed pixels get four rays more, and where these and the first disagree a second round of four; the radiance
-// becomes the mean over the pixel's square, the filter that every mode integrates. The nine points share no row and no
-// column, so that a level or upright stroke counts by its width.
+// The listed pixels get four rays more, and where these and the first disagree, or a beam knows of more, a second round
+// of four; the radiance becomes the mean over the pixel's square, the filter that every mode integrates. The nine points
+// share no row and no column, so that a level or upright stroke counts by its width.
 #define FOOTPRINT_PIXELS 0.5  // four rays a pixel
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
@@ -24,7 +24,8 @@ void main() {
   float before = again ? 5.0 : 1.0;  // rays in the pixel so far
   uint count = edges[kListCountAt];
   for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
-    int at = int(edges[kListFirstAt + i]);
+    uint item = edges[kListFirstAt + i];
+    int at = int(item & ~kListThin);
     int in_view = at - frame.view.x * frame.size.x * frame.size.y;
     vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
     uvec4 pixel = pixels[at];
@@ -42,7 +43,7 @@ void main() {
     mean = sum / (before + 4.0);
     pixels[at].x = packHalf2x16(mean.rg);
     pixels[at].y = packHalf2x16(vec2(mean.b, unpackHalf2x16(pixel.y).y));
-    if (!again && any(greaterThan(most - least, 0.125 * most + 0.002))) {
+    if (!again && ((item & kListThin) != 0u || any(greaterThan(most - least, 0.125 * most + 0.002)))) {
       APPEND(uneven, uint(at))
     }
   }

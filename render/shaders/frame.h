@@ -38,3 +38,4 @@ const uint kListGroup = 64u;       // items of a workgroup
 const uint kListMostGroups = 65535u;
 const uint kListCountAt = 3u;
 const uint kListFirstAt = 4u;
+const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alone, so that few rays may miss it

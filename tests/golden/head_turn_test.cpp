@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "render/renderer.hpp"
 #include "render/vk/device.hpp"
@@ -15,7 +14,7 @@ namespace {
 using render::ViewSetup;
 
 constexpr int kSize = 64;
-constexpr int kFrames = 12;
+constexpr int kFrames = 8;
 constexpr int kFiner = 8;  // the finely sampled picture has 64 pixels for one, those at edges five rays each
 
 struct Turn {
@@ -52,7 +51,8 @@ std::vector<double> luminance(render::Renderer& renderer, const Turn& turn, int 
   const int width = kSize * finer;
   for (int y = 0; y < width; ++y) {
     for (int x = 0; x < width; ++x) {
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+      const std::size_t at =
+          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
       picture[static_cast<std::size_t>(y / finer * kSize + x / finer)] +=
           (0.2126 * rgb[at] + 0.7152 * rgb[at + 1] + 0.0722 * rgb[at + 2]) / (finer * finer);
     }
@@ -131,26 +131,40 @@ render::Scene ruled_page(float width) {
     const float at = (12.0F * static_cast<float>(i) + 0.4F) * kPixel;
     patches.push_back({{-0.5F * length, at, z}, {length, 0, 0}, {0, thick, 0}, 0.0F});
     patches.push_back({{at, -0.5F * length, z + 0.001F}, {0, length, 0}, {-thick, 0, 0}, 0.0F});
-    patches.push_back({{at - 0.3F * length, -0.5F * length, z + 0.002F}, {0.6F * length, length, 0}, {-thick, 0.6F * thick, 0}, 0.0F});
+    patches.push_back({{at - 0.3F * length, -0.5F * length, z + 0.002F},
+                       {0.6F * length, length, 0},
+                       {-thick, 0.6F * thick, 0},
+                       0.0F});
   }
   return support::patch_scene(patches);
 }
 
-TEST(HeadTurn, RuledLines) {
+// One ray more or less of nine is an error of 0.11; a pixel where three strokes cross may be wrong by three of them,
+// one whose stroke is missed by the stroke's width. Missed strokes showed as a flicker of 0.07 to 0.08 and a drift of
+// 0.06 to 0.12.
+TEST(HeadTurn, LeavesRuledLinesAlone) {
   for (const float width : {0.6F, 0.4F, 0.25F}) {
     const std::string name = "lines of " + std::to_string(width) + " px";
-    crawl_in(ruled_page(width), turn_at({}, kFov), name.c_str());
+    const Crawl crawl = crawl_in(ruled_page(width), turn_at({}, kFov), name.c_str());
+    EXPECT_LT(crawl.flicker, 0.05) << name;
+    EXPECT_LT(crawl.worst, 0.45) << name;
+    EXPECT_LT(crawl.drift, 0.04) << name;
   }
 }
 
-TEST(HeadTurn, Print) {
+// Strokes down to a twentieth of a pixel, which nine rays do not resolve; five rays where a neighbour's centre told of
+// an edge made it 0.036 on the chart and 0.064 on the card.
+TEST(HeadTurn, LeavesPrintAlone) {
+  struct Sheet {
+    const char* target;
+    double fov_deg, flicker;
+  };
   const render::Scene room = support::reading_room();
-  for (const auto& [target, fov] : {std::pair("etdrs_chart", 12.0), std::pair("near_card", 14.0)}) {
+  for (const auto& [target, fov, flicker] : {Sheet{"etdrs_chart", 12.0, 0.030}, Sheet{"near_card", 14.0, 0.053}}) {
     Turn turn = turn_at(room.start_pose.value(), fov);
-    const glm::dvec3 towards =
-        support::target_position(room, target) - turn.view(0).world_from_eye.position;
+    const glm::dvec3 towards = support::target_position(room, target) - turn.view(0).world_from_eye.position;
     turn.gaze = glm::normalize(glm::inverse(turn.pair.world_from_head.orientation) * towards);
-    crawl_in(room, turn, target);
+    EXPECT_LT(crawl_in(room, turn, target).flicker, flicker) << target;
   }
 }
 

@@ -32,11 +32,14 @@ struct FrameBuffers {
         ray_directions(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
         hits(device, s.hits ? s.pixels * 4 : 4, vk::Memory::device),
         list(device, (s.pixels + 4) * 4, vk::Memory::device),
+        doubtful(device, (s.pixels + 4) * 4, vk::Memory::device),
+        blocks(device, s.pixels * 4, vk::Memory::device),
         radiance(device, s.pixels * 8, vk::Memory::device),
         display(device, s.pixels * 4, vk::Memory::device) {}
 
   Size size;
-  vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, list, radiance, display;
+  vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, list, doubtful, blocks, radiance,
+      display;
 };
 
 // View `index` of a frame of config's size.

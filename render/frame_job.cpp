@@ -92,12 +92,12 @@ void FrameJob::record_trace(vk::Commands& commands) {
 void FrameJob::aim(vk::Commands& commands) {
   const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list});
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
-    empty_list(commands);
+    empty_list(commands, out_.list);
     commands.barrier();
     dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
     commands.barrier();
     if (variant_.surface_kinds != 0) {
-      dispatch_list(commands, kernels_.get(Stage::unsettled, variant_), buffers);
+      dispatch_list(commands, kernels_.get(Stage::unsettled, variant_), buffers, out_.list);
       commands.barrier();
     }
   }
@@ -107,7 +107,7 @@ void FrameJob::find_hits(vk::Commands& commands) {
   aim(commands);
   commands.timestamp("rays");
   commands.barrier();
-  empty_list(commands);
+  empty_list(commands, out_.list);
   commands.barrier();
   if (accelerated_ != nullptr) {
     dispatch(commands, kernels_.get(Stage::ray_query, variant_),
@@ -119,7 +119,7 @@ void FrameJob::find_hits(vk::Commands& commands) {
   }
   commands.barrier();
   dispatch_list(commands, kernels_.get(Stage::left_out, variant_),
-                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list}));
+                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list}), out_.list);
   commands.timestamp(accelerated_ != nullptr ? "ray_query" : "tile");
   commands.barrier();
 }
@@ -127,11 +127,25 @@ void FrameJob::find_hits(vk::Commands& commands) {
 void FrameJob::record_edges(vk::Commands& commands) {
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     commands.barrier();
-    empty_list(commands);
+    empty_list(commands, out_.list);
+    empty_list(commands, out_.doubtful);
+    dispatch_squares(commands, kernels_.get(Stage::beam_blocks, variant_),
+                     with_scene({&out_.blocks, &out_.pixels, &out_.keys}), gpu::kBeamBlock);
     commands.barrier();
-    dispatch_view(commands, kernels_.get(Stage::find_edges), {&out_.pixels, &out_.keys, &out_.list});
+    dispatch_view(commands, kernels_.get(Stage::find_edges),
+                  {&out_.pixels, &out_.keys, &out_.blocks, &out_.list, &out_.doubtful});
     commands.barrier();
-    dispatch_list(commands, kernels_.get(Stage::edges, variant_), with_scene({&out_.pixels, &out_.list}));
+    dispatch_list(commands, kernels_.get(Stage::beams, variant_), with_scene({&out_.doubtful, &out_.list}),
+                  out_.doubtful);
+    commands.barrier();
+    empty_list(commands, out_.doubtful);
+    commands.barrier();
+    const vk::Kernel& edges = kernels_.get(Stage::edges, variant_);
+    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.list, &out_.doubtful}), out_.list);
+    commands.barrier();
+    data_.view.y = 1;
+    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.doubtful, &out_.list}), out_.doubtful);
+    data_.view.y = 0;
   }
   commands.timestamp("edges");
 }
@@ -156,10 +170,17 @@ void FrameJob::record_sample(vk::Commands& commands, int index) {
   commands.barrier();
 }
 
-// The view of data_.view.
-void FrameJob::dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  const auto groups = [](int pixels) { return (static_cast<std::uint32_t>(pixels) + kGroup - 1) / kGroup; };
+// The view of data_.view, an invocation for each square of `side` pixels.
+void FrameJob::dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side) {
+  const auto groups = [&](int pixels) {
+    const std::uint32_t pixels_a_group = kGroup * static_cast<std::uint32_t>(side);
+    return (static_cast<std::uint32_t>(pixels) + pixels_a_group - 1) / pixels_a_group;
+  };
   commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
+}
+
+void FrameJob::dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+  dispatch_squares(commands, kernel, buffers, 1);
 }
 
 void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
@@ -168,13 +189,14 @@ void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const 
   }
 }
 
-void FrameJob::dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  commands.dispatch_indirect(kernel, buffers, vk::bytes_of(data_), out_.list);
+void FrameJob::dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers,
+                             const vk::Buffer& list) {
+  commands.dispatch_indirect(kernel, buffers, vk::bytes_of(data_), list);
 }
 
-void FrameJob::empty_list(vk::Commands& commands) {
+void FrameJob::empty_list(vk::Commands& commands, vk::Buffer& list) {
   constexpr std::array<std::uint32_t, gpu::kListFirstAt> kEmpty{0, 1, 1, 0};
-  commands.update(out_.list, std::as_bytes(std::span(kEmpty)));
+  commands.update(list, std::as_bytes(std::span(kEmpty)));
 }
 
 void FrameJob::trace_with(vk::Commands& commands, Stage stage, const Buffers& own) {

@@ -34,8 +34,9 @@ class FrameJob {
   void find_hits(vk::Commands& commands);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
-  void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
-  void empty_list(vk::Commands& commands);
+  void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);
+  void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, const vk::Buffer& list);
+  void empty_list(vk::Commands& commands, vk::Buffer& list);
   void trace_with(vk::Commands& commands, Stage stage, const Buffers& own);
   [[nodiscard]] Buffers with_scene(const Buffers& own) const;
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "render/frame_types.hpp"
+#include "shaders/beam_blocks.hpp"
+#include "shaders/beams.hpp"
 #include "shaders/blur.hpp"
 #include "shaders/blur_encode.hpp"
 #include "shaders/chief.hpp"
@@ -69,10 +71,17 @@ Recipe recipe_of(Stage stage) {
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
       return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
+    case Stage::beam_blocks:
+      return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
     case Stage::find_edges:
-      return {"find_edges", shaders::find_edges, {texel_rgba32ui, texel_rg32ui, storage_buffer}, Constants::none};
+      return {"find_edges",
+              shaders::find_edges,
+              {texel_rgba32ui, texel_rg32ui, texel_r32ui, storage_buffer, storage_buffer},
+              Constants::none};
+    case Stage::beams:
+      return {"beams", shaders::beams, scene_and(2), Constants::scene};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(2), Constants::scene};
+      return {"edges", shaders::edges, scene_and(3), Constants::scene};
     case Stage::samples:
       return {"samples", shaders::dof, scene_and(3), Constants::scene};
     case Stage::blur:

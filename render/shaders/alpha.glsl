@@ -4,6 +4,7 @@
 const int kRaySees = 0;    // from the eye
 const int kRayBlocked = 1; // a shadow ray, all but what blends
 const int kRayDimmed = 2;  // a shadow ray, only what blends
+const int kRaySolid = 3;   // from the eye, through what blends
 int ray_kind = kRaySees;
 
 struct Corners {
@@ -75,7 +76,7 @@ float hit_alpha(uint triangle, uint material, float u, float v) {
 bool ray_meets(uint flags, bool front, uint triangle, uint material, float u, float v) {
   bool meets = true;
   if (HAS(kFeatureCull)) {
-    meets = front || ray_kind != kRaySees || (flags & kBvhCulled) == 0u;
+    meets = front || ray_kind == kRayBlocked || ray_kind == kRayDimmed || (flags & kBvhCulled) == 0u;
   }
   if (HAS(kFeatureBlend)) {
     bool blends = (flags & kBvhBlends) != 0u;

@@ -17,6 +17,7 @@ struct FrameData {
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
+  // y: the round of edge rays, 0 or 1.
   ivec4 view;
 };
 
@@ -28,9 +29,13 @@ struct FrameData {
 // A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
 const int kWavefrontTexels = 2;
 
+// Squares of pixels that share a beam (beam.glsl), row by row.
+const int kBeamBlock = 4;
+
 // A list of pixels: how many workgroups x, y, z go through it (vkCmdDispatchIndirect), how many items there are, the
 // items. list.glsl appends.
 const uint kListGroup = 64u;       // items of a workgroup
 const uint kListMostGroups = 65535u;
 const uint kListCountAt = 3u;
 const uint kListFirstAt = 4u;
+const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alone, so that few rays may miss it

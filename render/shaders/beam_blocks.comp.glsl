@@ -1,0 +1,36 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One beam for each block of pixels: whether there may be more in it than its pixels' own rays show. Where those differ
+// among themselves there is, and no beam is needed.
+#define FOOTPRINT_PIXELS 4.25  // kBeamBlock, and a little where the lens bends the beam's sides
+#include "render/shaders/scene_bindings.glsl"
+#include "render/shaders/shading.glsl"
+#include "render/shaders/pixel.glsl"
+#include "render/shaders/beam.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 10) writeonly buffer Blocks { uint blocks[]; };
+layout(binding = 11) uniform usamplerBuffer pixels;
+layout(binding = 12) uniform usamplerBuffer keys;
+#include "render/shaders/edge_test.glsl"
+
+void main() {
+  ivec2 size = frame.size.xy;
+  ivec2 first = kBeamBlock * ivec2(gl_GlobalInvocationID.xy);
+  if (first.x >= size.x || first.y >= size.y) {
+    return;
+  }
+  int base = frame.view.x * size.x * size.y;
+  int at = base + first.y * size.x + first.x;
+  uvec2 key = texelFetch(keys, at).xy;
+  float depth = uintBitsToFloat(texelFetch(pixels, at).w);
+  bool more = false;
+  for (int k = 1; k < kBeamBlock * kBeamBlock && !more; ++k) {
+    ivec2 q = min(first + ivec2(k % kBeamBlock, k / kBeamBlock), size - 1);
+    more = differs_in_shape(key, depth, base + q.y * size.x + q.x);
+  }
+  if (!more) {
+    more = square_shows_more(views[frame.view.x], vec2(first) + 0.5 * float(kBeamBlock));
+  }
+  blocks[block_index(first)] = more ? 1u : 0u;
+}

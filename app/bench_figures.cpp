@@ -65,7 +65,8 @@ Image8 with_bar(const Image8& map, const render::MapRange& range, const std::str
 class Studio {
  public:
   Studio(render::vk::Device& device, const std::string& scene_file)
-      : scene_(render::read_gltf(scene_file)), renderer_(device, scene_, {.traversal_file = traversal_file()}) {}
+      : scene_(render::read_gltf(scene_file)),
+        renderer_(device, scene_, {.traversal = render::Traversal::automatic, .traversal_file = traversal_file()}) {}
 
   [[nodiscard]] bool has_target(const std::string& name) const {
     return std::ranges::find(scene_.targets, name, &render::Target::name) != scene_.targets.end();

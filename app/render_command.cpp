@@ -212,7 +212,8 @@ int render_picture(const RenderOptions& options) {
   const render::FrameConfig config = frame_config(options, setup);
   render::vk::Device device = open_device(options.device);
   start_up.mark("device");
-  render::Renderer renderer(device, scene, {.traversal_file = traversal_file()});
+  render::Renderer renderer(device, scene,
+                            {.traversal = render::Traversal::automatic, .traversal_file = traversal_file()});
   start_up.mark("trees and textures");
   const Drawn drawn = draw_frames(options, setup, config, renderer, start_up);
   close_device(device);

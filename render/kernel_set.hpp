@@ -46,6 +46,7 @@ class KernelSet {
   explicit KernelSet(vk::Device& device) : device_(device) {}
 
   [[nodiscard]] const vk::Kernel& get(Stage stage, const TraceVariant& variant = {});
+  [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
   vk::Device& device_;

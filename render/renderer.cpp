@@ -164,4 +164,17 @@ RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vecto
   return all;
 }
 
+// Drivers compile at the first dispatch, some of them: so it takes a frame, if a small one.
+void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                       const FrameConfig& config) {
+  FrameConfig small = config;
+  small.width = small.height = 8;
+  small.samples = 1;
+  (void)render(lenses, views, small);
+}
+
+std::size_t Renderer::kernels_made() const {
+  return state_->kernels.size();
+}
+
 }  // namespace render

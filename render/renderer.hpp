@@ -79,6 +79,12 @@ class Renderer {
   [[nodiscard]] RenderedFrame render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                      const FrameConfig& config, const Progress& progress = {});
 
+  // Compiles what frames of these settings need, whatever their size, and measures what has to be measured, so that no
+  // frame of a running picture waits for it.
+  void prepare(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config);
+
+  [[nodiscard]] std::size_t kernels_made() const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -16,7 +16,7 @@ enum class Traversal {
 
 struct RendererConfig {
   Traversal traversal = Traversal::tile;
-  std::filesystem::path traversal_file = {};  // keeps what was measured; empty: each renderer measures for itself
+  std::filesystem::path traversal_file = {};  // keeps what automatic measured; empty: each renderer measures for itself
 };
 
 // Chief rays without a lens share an origin and are straight; through lenses they do neither.

@@ -105,6 +105,23 @@ TEST_F(RepeatedFrames, AreThoseOfAFreshRenderer) {
   }
 }
 
+// A running picture waits for no compiler: every kernel is there once its settings are prepared, whatever moves then.
+TEST_F(RepeatedFrames, CompileNothingOncePrepared) {
+  for (const Mode mode : kModes) {
+    render::Renderer renderer(device_, scene_);
+    const auto pair = worn(progressive());
+    const auto views = support::views_at(pair, render::Viewing::gaze, target("near_card"), kField);
+    renderer.prepare(pair.model, views, frame_config(mode));
+    const std::size_t prepared = renderer.kernels_made();
+    EXPECT_GT(prepared, 0U);
+    (void)renderer.render(pair.model, views, frame_config(mode));
+    const auto turned = worn(progressive(), {0.1, 0.05, -0.2}, 0.1);
+    const auto elsewhere = support::views_at(turned, render::Viewing::gaze, target("clock_dial"), kField);
+    (void)renderer.render(turned.model, elsewhere, frame_config(mode));
+    EXPECT_EQ(renderer.kernels_made(), prepared) << static_cast<int>(mode);
+  }
+}
+
 TEST_F(RepeatedFrames, OfTwoEyesAreThoseOfEachEyeAlone) {
   lenses::Spectacles unlike = progressive();
   unlike.lens[1] = lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/myopia.json").lens[1];

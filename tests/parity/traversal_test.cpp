@@ -290,7 +290,7 @@ TEST(Traversals, AutomaticKeepsToItsRecord) {
   render::FrameConfig config;
   config.width = config.height = 64;
   const auto traced_by = [&] {
-    render::Renderer renderer(device(), scene, {.traversal_file = file});
+    render::Renderer renderer(device(), scene, {.traversal = Traversal::automatic, .traversal_file = file});
     const auto frame = renderer.render(pair.model, {view}, config);
     for (const auto& [traversal, name] : all_traversals()) {
       if (std::ranges::find(frame.stages, name, &render::vk::StageTime::name) != frame.stages.end()) return traversal;

@@ -132,9 +132,15 @@ bool beam_shows_more(SceneRay middle, Beam beam, SeenFace seen) {
   return found;
 }
 
-// at: the beam's middle, pixels from the picture's upper left corner.
-bool square_shows_more(ViewData view, vec2 at) {
+const uint kShowsAnything = 0xffffffffu;
+
+// at: the beam's middle, pixels from the picture's upper left corner. shown: a key (pack_key) of what the rays of pixels
+// show; where the beam's own middle ray shows another material or status, that is more already. Or kShowsAnything.
+bool square_shows_more(ViewData view, vec2 at, uint shown) {
   PixelRay ray = aim_pixel(view, pixel_direction(view, at), vec2(0.0), vec2(0.0));
+  if (shown != kShowsAnything && uint(ray.status) != ((shown >> 12) & 15u)) {
+    return true;
+  }
   if (shows_rim(ray.status)) {
     return false;
   }
@@ -151,5 +157,7 @@ bool square_shows_more(ViewData view, vec2 at) {
     seen.point = middle.origin + hit.t * middle.direction;
     seen.normal = normalize(cross(texelFetch(bvh_triangles, texel + 1).xyz, texelFetch(bvh_triangles, texel + 2).xyz));
   }
-  return beam_shows_more(middle, pixel_beam(view, ray), seen);
+  uint material = seen.met ? seen.material & 0xfffu : 0xfffu;
+  bool other = shown != kShowsAnything && material != (shown & 0xfffu);
+  return other || beam_shows_more(middle, pixel_beam(view, ray), seen);
 }

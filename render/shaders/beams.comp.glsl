@@ -18,7 +18,7 @@ void main() {
     uint at = doubtful[kListFirstAt + i];
     int in_view = int(at) - frame.view.x * frame.size.x * frame.size.y;
     vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
-    if (square_shows_more(view, p + 0.5)) {
+    if (square_shows_more(view, p + 0.5, kShowsAnything)) {
       APPEND(edges, at | kListThin)
     }
   }

@@ -152,6 +152,16 @@ TEST(HeadTurn, LeavesRuledLinesAlone) {
   }
 }
 
+// A stroke along the middle of a column of blocks (shaders/beam_blocks.comp.glsl), between the pixels' rays: the beams'
+// own middle rays are all that meet it. Missed, it would be a drift of 0.1.
+TEST(HeadTurn, SeesWhatOnlyABeamsMiddleMeets) {
+  const std::vector<support::Patch> patches{
+      support::wall(kDistance, 1.0F, 0.5F),
+      {{1.6F * kPixel, -30.0F * kPixel, -kDistance + 0.001F}, {0.8F * kPixel, 0, 0}, {0, 60.0F * kPixel, 0}, 0.0F}};
+  const Crawl crawl = crawl_in(support::patch_scene(patches), turn_at({}, kFov), "a stroke between blocks' pixels");
+  EXPECT_LT(crawl.drift, 0.04);
+}
+
 // Strokes down to a twentieth of a pixel, which nine rays do not resolve; five rays where a neighbour's centre told of
 // an edge made it 0.036 on the chart and 0.064 on the card.
 TEST(HeadTurn, LeavesPrintAlone) {

@@ -7,10 +7,11 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <thread>
 
+#include "render/scene/packet_tracer.hpp"
 #include "render/vk/device.hpp"
 #include "tests/support/cluttered_room.hpp"
-#include "tests/support/embree_packets.hpp"
 #include "tests/support/worn_views.hpp"
 
 namespace {
@@ -23,8 +24,8 @@ double median(std::vector<double> values) {
 }
 
 // Tile by tile, so that sixteen rays in a row are as near each other as a packet tracer could wish.
-std::vector<support::WorldRay> rays_of(const support::WornPair& pair, const render::ViewSetup& view, int size) {
-  std::vector<support::WorldRay> rays;
+std::vector<render::SceneRay> rays_of(const support::WornPair& pair, const render::ViewSetup& view, int size) {
+  std::vector<render::SceneRay> rays;
   for (int tile_y = 0; tile_y < size; tile_y += 4) {
     for (int tile_x = 0; tile_x < size; tile_x += 4) {
       for (int i = 0; i < 16; ++i) {
@@ -38,7 +39,7 @@ std::vector<support::WorldRay> rays_of(const support::WornPair& pair, const rend
 }
 
 void bench(render::vk::Device& device, const char* scene_name, const render::Scene& scene, int size, int rounds) {
-  const support::EmbreePackets embree(scene);
+  const render::PacketTracer embree(scene);
   render::Renderer per_ray(device, scene, {.traversal = render::Traversal::per_ray});
   render::Renderer tile(device, scene, {.traversal = render::Traversal::tile});
   std::vector<std::pair<const char*, render::Renderer*>> renderers{{"per_ray", &per_ray}, {"tile", &tile}};
@@ -55,7 +56,6 @@ void bench(render::vk::Device& device, const char* scene_name, const render::Sce
     const auto fov = tracking::FieldOfView::symmetric(60.0 * support::kDegree, 1.0);
     const auto view = support::view_along(pair, 0, render::Viewing::fixed, {0.0, 0.0, -1.0}, fov);
     const auto rays = rays_of(pair, view, size);
-    std::vector<support::EmbreePackets::Hit> hits(rays.size());
     render::FrameConfig config;
     config.width = config.height = size;
     config.bare = std::getenv("VERGENCE_BENCH_SHADOWS") == nullptr;
@@ -66,7 +66,7 @@ void bench(render::vk::Device& device, const char* scene_name, const render::Sce
     std::map<std::string, Times> times;
     std::vector<double> peer;
     for (int round = -1; round < rounds; ++round) {
-      const double ms = embree.intersect(rays, hits);
+      const double ms = embree.trace(rays, std::thread::hardware_concurrency()).milliseconds;
       if (round >= 0) peer.push_back(ms);
       for (const auto& [name, renderer] : renderers) {
         const auto frame = renderer->render(pair.model, {view}, config);

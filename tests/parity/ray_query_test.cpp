@@ -16,15 +16,15 @@ namespace {
 
 using render::Material;
 using render::Scene;
+using render::SceneRay;
 using render::Traversal;
-using support::WorldRay;
 
 render::vk::Device& device() {
   static render::vk::Device the_device;
   return the_device;
 }
 
-std::vector<std::uint32_t> hits_of(const Scene& scene, const std::vector<WorldRay>& rays, Traversal traversal) {
+std::vector<std::uint32_t> hits_of(const Scene& scene, const std::vector<SceneRay>& rays, Traversal traversal) {
   const render::SceneBuffers buffers(device(), scene);
   return support::device_hits(device(), buffers, rays, static_cast<int>(rays.size()), 1, traversal).triangle;
 }
@@ -61,7 +61,7 @@ Scene leaves_and_balls() {
 // Every triangle is named as by the traversal that tests one ray after the other.
 TEST(RayQueries, LookThroughHolesAndBacks) {
   const Scene scene = leaves_and_balls();
-  std::vector<WorldRay> rays;
+  std::vector<SceneRay> rays;
   for (int y = 0; y < 160; ++y) {
     for (int x = 0; x < 200; ++x) {
       // Off the squares' diagonals, where either of two triangles is right.
@@ -88,7 +88,7 @@ TEST(RayQueries, StartBeyondWhatTheyStartOn) {
   support::add_wall(scene, wall, 0, 0, 1, 1);
   support::add_wall(scene, wall, 0, 0, 2, 1);
   const glm::vec3 ahead(0.0F, 0.0F, -1.0F);
-  const std::vector<WorldRay> rays{{{0.3F, 0.2F, 0.0F}, ahead},
+  const std::vector<SceneRay> rays{{{0.3F, 0.2F, 0.0F}, ahead},
                                    {{0.3F, 0.2F, -1.0F}, ahead},
                                    {{0.3F, 0.2F, -2.0F}, ahead},
                                    {{0.3F, 0.2F, -1.5F}, -ahead},

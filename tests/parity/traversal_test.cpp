@@ -8,18 +8,18 @@
 #include <fstream>
 #include <map>
 
+#include "render/scene/packet_tracer.hpp"
 #include "render/vk/acceleration.hpp"
 #include "render/vk/device.hpp"
 #include "tests/support/cluttered_room.hpp"
 #include "tests/support/device_hits.hpp"
-#include "tests/support/embree_packets.hpp"
 #include "tests/support/worn_views.hpp"
 
 namespace {
 
 using render::Scene;
+using render::SceneRay;
 using render::Traversal;
-using support::WorldRay;
 
 constexpr int kWidth = 333, kHeight = 251;  // no multiples of a tile
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -73,12 +73,6 @@ struct Place {
   tracking::Pose head;
 };
 
-// Embree's triangles have no backs to leave out.
-Scene both_sided(Scene scene) {
-  for (render::Material& material : scene.materials) material.double_sided = true;
-  return scene;
-}
-
 std::vector<Place> places() {
   std::vector<Place> all;
   Scene room = support::reading_room();
@@ -93,8 +87,8 @@ std::vector<Place> places() {
 }
 
 // The rays beyond the lens as floats; a rim has none. A wide picture, so that rims and steep rays are in it.
-std::vector<WorldRay> rays_of(const support::WornPair& pair, const render::ViewSetup& view) {
-  std::vector<WorldRay> rays;
+std::vector<SceneRay> rays_of(const support::WornPair& pair, const render::ViewSetup& view) {
+  std::vector<SceneRay> rays;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const auto pixel = support::reference_pixel(pair, view, support::pixel_direction(view, x, y, kWidth, kHeight));
@@ -105,7 +99,7 @@ std::vector<WorldRay> rays_of(const support::WornPair& pair, const render::ViewS
   return rays;
 }
 
-double distance_to(const Scene& scene, std::uint32_t triangle, const WorldRay& ray) {
+double distance_to(const Scene& scene, std::uint32_t triangle, const SceneRay& ray) {
   const glm::uvec3 index = scene.triangles.at(triangle);
   const glm::dvec3 a(scene.vertices[index.x].position);
   const glm::dvec3 n =
@@ -114,7 +108,7 @@ double distance_to(const Scene& scene, std::uint32_t triangle, const WorldRay& r
 }
 
 // Another triangle at the same distance - a shared edge, two faces on each other - is the same hit.
-bool same_hit(const Scene& scene, const WorldRay& ray, std::uint32_t a, std::uint32_t b) {
+bool same_hit(const Scene& scene, const SceneRay& ray, std::uint32_t a, std::uint32_t b) {
   if (a == b || a == kNone || b == kNone) return a == b;
   const double one = distance_to(scene, a, ray), other = distance_to(scene, b, ray);
   return std::abs(one - other) <= 1e-4 * std::abs(other);
@@ -124,22 +118,20 @@ TEST(Traversals, HitWhatEmbreeHits) {
   const auto fov = tracking::FieldOfView::symmetric(100.0 * support::kDegree, double{kWidth} / kHeight);
   std::size_t pixels = 0, rims = 0;
   std::map<std::string, std::size_t> wrong, handed_on;
-  for (Place place : places()) {
-    place.scene = both_sided(std::move(place.scene));
-    const support::EmbreePackets embree(place.scene);
+  for (const Place& place : places()) {
+    const render::PacketTracer embree(place.scene);
     const render::SceneBuffers buffers(device(), place.scene);
     for (const Glasses& glasses : all_glasses()) {
       const auto pair = support::wear(lenses::Wearer{}, glasses.worn ? &*glasses.worn : nullptr, place.head);
       for (const double yaw : {0.0, 0.6}) {  // the second across a tile's change of main axis
         const glm::dvec3 gaze(std::sin(yaw), -0.2, -std::cos(yaw));
         const auto rays = rays_of(pair, support::view_along(pair, 0, render::Viewing::gaze, gaze, fov));
-        std::vector<support::EmbreePackets::Hit> expected(rays.size());
-        std::vector<WorldRay> traced = rays;
-        for (WorldRay& ray : traced) {
+        std::vector<SceneRay> traced = rays;
+        for (SceneRay& ray : traced) {
           if (ray.direction == glm::vec3(0.0F)) ray.direction = {0.0F, 0.0F, 1.0F};
         }
-        embree.intersect(traced, expected);
-        const auto is_rim = [](const WorldRay& ray) { return ray.direction == glm::vec3(0.0F); };
+        const auto expected = embree.triangles_hit(traced);
+        const auto is_rim = [](const SceneRay& ray) { return ray.direction == glm::vec3(0.0F); };
         const auto rims_here = static_cast<std::size_t>(std::ranges::count_if(rays, is_rim));
         rims += rims_here;
         pixels += rays.size() - rims_here;
@@ -147,7 +139,7 @@ TEST(Traversals, HitWhatEmbreeHits) {
           const auto hits = support::device_hits(device(), buffers, rays, kWidth, kHeight, traversal);
           std::size_t wrong_here = 0;
           for (std::size_t i = 0; i < rays.size(); ++i) {
-            const bool same = is_rim(rays[i]) || same_hit(place.scene, rays[i], hits.triangle[i], expected[i].triangle);
+            const bool same = is_rim(rays[i]) || same_hit(place.scene, rays[i], hits.triangle[i], expected[i]);
             wrong_here += same ? 0 : 1;
           }
           wrong[name] += wrong_here;
@@ -170,14 +162,14 @@ TEST(Traversals, HitWhatEmbreeHits) {
 // Rays that fly apart - all of a picture's, or one in every other tile - are traced one by one, and tiles in which some
 // have no ray at all are sound.
 TEST(Traversals, HandOnWhatFliesApart) {
-  const Scene scene = both_sided(support::cluttered_room(5, 20000));
-  const support::EmbreePackets embree(scene);
+  const Scene scene = support::cluttered_room(5, 20000);
+  const render::PacketTracer embree(scene);
   const render::SceneBuffers buffers(device(), scene);
   std::mt19937 random(21);
   std::normal_distribution<float> normal;
   const auto anywhere = [&] { return glm::normalize(glm::vec3(normal(random), normal(random), normal(random))); };
   for (const int stray_every : {1, 2 * 64}) {
-    std::vector<WorldRay> rays;
+    std::vector<SceneRay> rays;
     std::size_t strays = 0;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
@@ -190,17 +182,16 @@ TEST(Traversals, HandOnWhatFliesApart) {
                         none ? glm::vec3(0.0F) : (stray ? anywhere() : glm::normalize(ahead))});
       }
     }
-    std::vector<WorldRay> traced = rays;
-    for (WorldRay& ray : traced) {
+    std::vector<SceneRay> traced = rays;
+    for (SceneRay& ray : traced) {
       if (ray.direction == glm::vec3(0.0F)) ray.direction = {0.0F, 0.0F, 1.0F};
     }
-    std::vector<support::EmbreePackets::Hit> expected(rays.size());
-    embree.intersect(traced, expected);
+    const auto expected = embree.triangles_hit(traced);
     const auto hits = support::device_hits(device(), buffers, rays, kWidth, kHeight, Traversal::tile);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const bool none = rays[i].direction == glm::vec3(0.0F);
-      wrong += none || same_hit(scene, rays[i], hits.triangle[i], expected[i].triangle) ? 0 : 1;
+      wrong += none || same_hit(scene, rays[i], hits.triangle[i], expected[i]) ? 0 : 1;
     }
     EXPECT_LE(wrong, 2U);
     EXPECT_GT(hits.left_out, strays / 2);

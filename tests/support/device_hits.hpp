@@ -9,9 +9,9 @@
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
 #include "render/scene/gpu/bvh_layout.h"
+#include "render/scene/packet_tracer.hpp"
 #include "render/scene_buffers.hpp"
 #include "render/vk/commands.hpp"
-#include "tests/support/embree_packets.hpp"
 
 namespace support {
 
@@ -22,12 +22,13 @@ struct DeviceHits {
 
 // rays: width * height, row by row, direction zero where there is none.
 inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuffers& scene,
-                              const std::vector<WorldRay>& rays, int width, int height, render::Traversal traversal) {
+                              const std::vector<render::SceneRay>& rays, int width, int height,
+                              render::Traversal traversal) {
   namespace gpu = render::gpu;
   const std::size_t count = rays.size();
   render::FrameBuffers buffers(device, {.pixels = count, .hits = true});
   std::vector<glm::vec4> origins, directions;
-  for (const WorldRay& ray : rays) {
+  for (const render::SceneRay& ray : rays) {
     const bool none = ray.direction == glm::vec3(0.0F);
     origins.emplace_back(ray.origin, 0.0F);
     directions.emplace_back(none ? glm::vec3(0.0F, 0.0F, 1.0F) : ray.direction, none ? -1.0F : 0.0F);

@@ -71,14 +71,13 @@ VG_FUNCTION vec2 within_cylinder(KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real
 }
 
 // What shape_hit does next with the surface at its present t.
-const int kClosedForm = 0;  // t is the crossing
-const int kNewton = 1;
-const int kBracket = 2;     // look for a change of sign, kBracketSamples steps along the ray
-const int kRefine = 3;      // Newton's method kept between two t of different sign
+const int kNewton = 0;
+const int kBracket = 1;  // look for a change of sign, kBracketSamples steps along the ray
+const int kRefine = 2;   // Newton's method kept between two t of different sign
 const int kMostEvaluations = kNewtonSteps + kBracketSamples + 1 + kBisectionSteps;
 
-// In the axes of the surface's shape. One loop with one evaluation of the surface in it: that code is by far the
-// largest here, and compilers copy it to each place that calls it.
+// In the axes of the surface's shape. Beside the closed forms, one loop with one evaluation of the surface in it: that
+// code is by far the largest here, and compilers copy it to each place that calls it.
 VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
   SurfaceHit hit;
   hit.found = false;
@@ -91,22 +90,24 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
     dd = dot(d, d);
   }
   real scale = abs(o.z) + semi_diameter;
-  bool closed = IS_KIND(s, kPlane) || IS_KIND(s, kSphere);
-  vec3 from = closed ? o : vec3(o.x, o.y, o.z - s.frame.z);
-  real t = sphere_crossing(closed ? s.shape.x : s.frame.w, from, d, dd, sheet);
-  int phase = closed ? kClosedForm : kNewton;
+  if (IS_KIND(s, kPlane) || IS_KIND(s, kSphere)) {
+    real crossing = sphere_crossing(s.shape.x, o, d, dd, sheet);
+    hit.t = abs(crossing) <= real(4) * kEpsilon * scale ? real(0) : crossing;  // a start that touches it is a hit
+    hit.point = conic_point(TABLE KINDS(kinds) s, vec2(o.x + hit.t * d.x, o.y + hit.t * d.y));
+    hit.found = sheet && hit.t >= real(0) && hit.point.inside;
+    return hit;
+  }
+  real t = sphere_crossing(s.frame.w, vec3(o.x, o.y, o.z - s.frame.z), d, dd, sheet);
+  int phase = kNewton;
   int steps = 0;          // of the phase
   real last = scale;      // Newton's last step
   real low = real(0);     // on this side of the surface
   real high = real(0);    // beyond it
   bool above = false;
-  bool search = !closed && !sheet;
+  bool search = !sheet;
   vec2 range = vec2(real(1), real(0));
   if (!HURRIED) {
     range = within_cylinder(KINDS(kinds) s, o, d, semi_diameter);
-  }
-  if (closed && abs(t) <= real(4) * kEpsilon * scale) {
-    t = real(0);  // a start that touches the surface is a hit
   }
   for (int i = 0; i < kMostEvaluations; ++i) {
     if (search) {
@@ -124,12 +125,6 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
     real f = o.z + t * d.z - point.z;
     real slope = d.z - point.gradient.x * d.x - point.gradient.y * d.y;
     ++steps;
-    if (phase == kClosedForm) {
-      hit.t = t;
-      hit.point = point;
-      hit.found = sheet && t >= real(0) && point.inside;
-      break;
-    }
     if (phase == kNewton) {
       real dt = -f / slope;
       real size = abs(dt);

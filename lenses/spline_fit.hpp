@@ -15,9 +15,9 @@
 namespace lenses {
 
 struct SplineFitConfig {
-  std::optional<double> noise = {};      // standard deviation of the heights' error, m; absent: the samples' own
-  std::size_t most_controls = 100;  // a direction, at least 4
-  void validate() const;            // throws std::invalid_argument
+  std::optional<double> noise = {};  // standard deviation of the heights' error, m; absent: the samples' own
+  std::size_t most_controls = 100;   // a direction, at least 4
+  void validate() const;             // throws std::invalid_argument
 };
 
 struct SplineFit {

@@ -111,7 +111,8 @@ std::string rows_json(std::span<const BenchRow> rows, std::span<const PeerRow> p
 
 std::string rows_csv(std::span<const BenchRow> rows, std::span<const PeerRow> peers) {
   std::ostringstream out;
-  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,processor_ms,rays_ms,tile_ms,ray_query_ms,trace_ms,"
+  out << "lens,mode,size,shading,triangles,ms_median,ms_min,ms_max,fps,processor_ms,rays_ms,tile_ms,ray_query_ms,trace_"
+         "ms,"
          "edges_ms,blur_ms,samples_ms,encode_ms,embree16_ms,embree16_processor_ms,paper_fps_at_1024,device\n";
   for (const BenchRow& row : rows) {
     out << field(row.lens) << ',' << row.mode << ',' << row.size << ',' << row.shading << ',' << row.triangles << ','

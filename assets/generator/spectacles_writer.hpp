@@ -9,8 +9,8 @@
 
 namespace assets {
 
-// The right lens's progressive front: the closed form in the wearer's axes (x mirrored), near zone toward -x, fitted with
-// count x count control points.
+// The right lens's progressive front: the closed form in the wearer's axes (x mirrored), near zone toward -x, fitted
+// with count x count control points.
 [[nodiscard]] lenses::BsplineHeightField progressive_front_right(std::size_t count = 50);
 
 // Lenses of single vision from their order (TABO), in the wearer's axes: back vertex power

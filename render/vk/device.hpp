@@ -46,7 +46,7 @@ struct DeviceLimits {
   std::size_t shared_bytes = 0;          // shared memory of a workgroup
   double timestamp_period_ns = 0.0;      // 0: the queue has no timestamps
   bool has_float64 = false;
-  bool on_processor = false;  // the driver computes on the CPU
+  bool on_processor = false;   // the driver computes on the CPU
   bool has_ray_query = false;  // VK_KHR_ray_query, and what its acceleration structures need
 };
 

@@ -49,7 +49,8 @@ TEST(Start, HoldsTimeAndMemory) {
   const double seconds = processor_seconds() - before;
   std::cout << scene_file() << ": " << report.at("triangles") << " triangles, " << seconds << " s of processor time, "
             << report.at("start_up_ms") << " ms by the clock\n";
-  // Mesa 22.3 translates every kernel's SPIR-V anew at each start; kernels that grow by copies of inlined code show here.
+  // Mesa 22.3 translates every kernel's SPIR-V anew at each start; kernels that grow by copies of inlined code show
+  // here.
   EXPECT_LT(seconds, 2.0);
   // Maps keep the most planes and trace the fewest rays.
   const json map = drawn({"--size", "1024x1024", "--mode", "power"}, folder);

@@ -1,5 +1,5 @@
-// A bare frame is drawn as the benchmark says: base colours, the first light alone, no shadow, one ray a pixel; and apart
-// from that it is the same picture.
+// A bare frame is drawn as the benchmark says: base colours, the first light alone, no shadow, one ray a pixel; and
+// apart from that it is the same picture.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -52,8 +52,8 @@ TEST(RandomPrescription, IsReadAsOrdered) {
   for (int i = 0; i < 300; ++i) {
     const LensRequest request = orders.next();
     const lenses::Prescription& p = request.prescription;
-    SCOPED_TRACE("seed " + std::to_string(kSeed) + " order " + std::to_string(i) + ": " + std::to_string(p.sphere) + " " +
-                 std::to_string(p.cylinder) + " x " + std::to_string(p.axis * 180.0 / kPi) + " index " +
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + " order " + std::to_string(i) + ": " + std::to_string(p.sphere) +
+                 " " + std::to_string(p.cylinder) + " x " + std::to_string(p.axis * 180.0 / kPi) + " index " +
                  std::to_string(request.index));
     const lenses::DesignedLens designed = lenses::design_lens(request);
     ++made;

@@ -78,6 +78,7 @@ std::optional<lenses::Order> order_by_hand(const MeasureOptions& options) {
   }
   for (const std::string& text : options.prism) {
     order.ordered.prism.push_back(prism_of("--prism", text, side_of(options)));
+    check_range("--prism", order.ordered.prism.back().magnitude, 0.0, 40.0, "pd");
   }
   return order;
 }

@@ -1,14 +1,13 @@
 #include "app/prescription_options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "app/option_values.hpp"
+#include "app/prism_option.hpp"
 #include "lenses/design/materials.hpp"
-#include "lenses/design/prism_base.hpp"
 #include "lenses/lens_io/lens_io.hpp"
 #include "tracking/input_error.hpp"
 
@@ -49,36 +48,6 @@ const std::map<std::string, lenses::ProgressiveConfig::Face> kFaces{
     {"eye_side", lenses::ProgressiveConfig::Face::eye_side}, {"front", lenses::ProgressiveConfig::Face::front}};
 const std::map<std::string, lenses::Side> kSides{{"right", lenses::Side::right}, {"left", lenses::Side::left}};
 
-// A number, finite and alone.
-std::optional<double> number_in(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-  return good ? std::optional(value) : std::nullopt;
-}
-
-// "2@in", "0.5@180": prism dioptres and where the base lies.
-lenses::Prism prism_of(const std::string& text, const std::optional<lenses::Side>& side) {
-  const std::size_t at = std::min(text.find('@'), text.size());
-  const std::optional<double> magnitude = number_in(text.substr(0, at));
-  const std::string base = text.substr(std::min(at + 1, text.size()));
-  const std::optional<lenses::PrismBase> word = lenses::prism_base(base);
-  const std::optional<double> degrees = number_in(base);
-  if (!magnitude || !(word || (degrees && *degrees >= 0.0 && *degrees <= 360.0))) {
-    throw InputError("--prism", "",
-                     "'" + text +
-                         "' is not M@B with M prism dioptres and B a base from 0 to 360 degrees (TABO), or "
-                         "up, down, in, out, such as 2@in");
-  }
-  if (!word) {
-    return {*magnitude, std::fmod(*degrees, 360.0) * kDegree};
-  }
-  if (!side && lenses::known_by_side(*word)) {
-    throw InputError("--prism", "", "'" + text + "' needs --side right or left, which says where the nose is");
-  }
-  return {*magnitude, lenses::base_angle(*word, side.value_or(lenses::Side::right))};
-}
-
 lenses::Prescription prescription_of(const PrescriptionOptions& o, const std::optional<lenses::Side>& side) {
   lenses::Prescription p;
   p.sphere = o.sphere;
@@ -92,7 +61,7 @@ lenses::Prescription prescription_of(const PrescriptionOptions& o, const std::op
     p.axis = (*o.axis == 0.0 ? 180.0 : *o.axis) * kDegree;  // ISO 8429 writes 180, not 0
   }
   for (const std::string& text : o.prism) {
-    p.prism.push_back(prism_of(text, side));
+    p.prism.push_back(prism_of("--prism", text, side));
   }
   return p;
 }

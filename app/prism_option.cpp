@@ -1,40 +1,45 @@
 #include "app/prism_option.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
-#include "app/option_values.hpp"
 #include "lenses/design/prism_base.hpp"
 #include "tracking/input_error.hpp"
 
 namespace app {
+namespace {
+
+// A number, finite and alone.
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  return good ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
 
 lenses::Prism prism_of(const std::string& option, const std::string& text, std::optional<lenses::Side> side) {
-  const auto refuse = [&](const std::string& why) {
-    throw tracking::InputError(option, "", std::string("'") + text + "' " + why);
-  };
-  const std::string form =
-      "M@B with M a number of prism dioptres and B a base from 0 to 360 degrees (TABO), or up, down, in, out, such as "
-      "2@in";
-  const std::size_t at = text.find('@');
-  if (at == std::string::npos) {
-    refuse(std::string("is not ") + form);
+  const std::size_t at = std::min(text.find('@'), text.size());
+  const std::optional<double> magnitude = number_in(text.substr(0, at));
+  const std::string base = text.substr(std::min(at + 1, text.size()));
+  const std::optional<lenses::PrismBase> word = lenses::prism_base(base);
+  const std::optional<double> degrees = number_in(base);
+  if (!magnitude || !(word || (degrees && *degrees >= 0.0 && *degrees <= 360.0))) {
+    throw tracking::InputError(option, "",
+                               "'" + text +
+                                   "' is not M@B with M prism dioptres and B a base from 0 to 360 degrees (TABO), or "
+                                   "up, down, in, out, such as 2@in");
   }
-  lenses::Prism prism;
-  prism.magnitude = numbers_of(option, text.substr(0, at), 1, form).front();
-  check_range(option, prism.magnitude, 0.0, 40.0, "pd");
-  const std::string base = text.substr(at + 1);
-  if (const auto known = lenses::prism_base(base)) {
-    if (!side && lenses::known_by_side(*known)) {
-      refuse("needs --side right or left, which says where the nose is");
-    }
-    prism.base = lenses::base_angle(*known, side.value_or(lenses::Side::right));
-    return prism;
+  if (!word) {
+    return {*magnitude, std::fmod(*degrees, 360.0) * std::numbers::pi / 180.0};
   }
-  const double degrees = numbers_of(option, base, 1, form).front();
-  check_range(option, degrees, 0.0, 360.0, "degrees");
-  prism.base = std::fmod(degrees, 360.0) * std::numbers::pi / 180.0;
-  return prism;
+  if (!side && lenses::known_by_side(*word)) {
+    throw tracking::InputError(option, "", "'" + text + "' needs --side right or left, which says where the nose is");
+  }
+  return {*magnitude, lenses::base_angle(*word, side.value_or(lenses::Side::right))};
 }
 
 }  // namespace app

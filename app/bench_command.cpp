@@ -20,6 +20,7 @@
 #include "app/report/output_folder.hpp"
 #include "app/scene_options.hpp"
 #include "render/image/png.hpp"
+#include "render/ladder.hpp"
 #include "tracking/input_error.hpp"
 
 namespace app {
@@ -109,6 +110,7 @@ BenchConfig config_of(const BenchOptions& options) {
   config.sizes = sizes_of(options.sizes);
   config.rounds = options.rounds;
   config.scene = options.scene;
+  config.accuracy = render::find_rung(options.picture.accuracy)->accuracy;
   config.threshold_px = options.picture.threshold();
   config.exposure = options.picture.exposure;
   config.seed = options.seed;

@@ -25,6 +25,7 @@ render::FrameConfig frame_config(const BenchRow& row, const BenchConfig& bench) 
   config.exposure = bench.exposure;
   config.seed = bench.seed;
   config.samples = 1;
+  config.accuracy = bench.accuracy;
   config.bare = row.shading == "bare";
   config.range = render::MapRange{-1.0, 3.0};
   return config;

@@ -8,6 +8,7 @@
 
 #include "app/bench/bench_report.hpp"
 #include "app/render_setup.hpp"
+#include "render/accuracy.hpp"
 #include "render/scene/scene.hpp"
 #include "render/traversal.hpp"
 
@@ -26,6 +27,7 @@ struct BenchConfig {
   SceneOptions scene;  // its spectacles, eye and size do not count
   double threshold_px = 0.5;
   double exposure = 0.0;
+  render::Accuracy accuracy;
   std::uint32_t seed = 0;
   std::string device;
   render::Traversal traversal = render::Traversal::automatic;

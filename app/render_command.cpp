@@ -17,6 +17,7 @@
 #include "render/image/exr.hpp"
 #include "render/image/output_error.hpp"
 #include "render/image/png.hpp"
+#include "render/ladder.hpp"
 #include "render/renderer.hpp"
 #include "tracking/input_error.hpp"
 
@@ -109,6 +110,7 @@ render::FrameConfig frame_config(const RenderOptions& options, const RenderSetup
   config.width = setup.size[0];
   config.height = setup.size[1];
   config.mode = mode_of(options.mode);
+  config.accuracy = render::find_rung(options.picture.accuracy)->accuracy;
   config.threshold_px = options.picture.threshold();
   config.exposure = options.picture.exposure;
   config.samples = options.samples.value_or(options.target_error ? kSamplesForTarget : kDefaultSamples);

@@ -1,8 +1,23 @@
 #include "app/scene_options.hpp"
 
+#include <string>
+#include <vector>
+
 #include "app/option_values.hpp"
+#include "render/ladder.hpp"
 
 namespace app {
+namespace {
+
+std::vector<std::string> rung_names() {
+  std::vector<std::string> names;
+  for (const render::Rung& rung : render::ladder()) {
+    names.emplace_back(rung.name);
+  }
+  return names;
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help) {
   command.add_option("--scene", scene.scene, help.scene);
@@ -30,7 +45,7 @@ void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& 
 
 void add_picture_options(CLI::App& command, PictureOptions& picture) {
   command.add_option("--accuracy", picture.accuracy, "Rung of the accuracy ladder")
-      ->check(CLI::IsMember({"standard"}))
+      ->check(CLI::IsMember(rung_names()))
       ->capture_default_str();
   command.add_option("--threshold", picture.threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
       ->capture_default_str();

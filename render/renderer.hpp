@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "render/accuracy.hpp"
 #include "render/image/image.hpp"
 #include "render/scene_buffers.hpp"
 #include "render/traversal.hpp"
@@ -32,6 +33,7 @@ struct MapRange {
 struct FrameConfig {
   int width = 1024, height = 1024;  // of each view, pixels
   Mode mode = Mode::adof;
+  Accuracy accuracy;
   double threshold_px = 0.5;           // blurs with a smaller major semi-axis are not drawn
   double exposure = 0.0;               // EV
   int samples = 64;                    // dof; with a target error the most that are taken

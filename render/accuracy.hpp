@@ -1,0 +1,47 @@
+// How exactly a frame is computed: every choice that trades time for truth, apart from what is drawn (FrameConfig).
+// The defaults are the rung "standard". Rungs with names are in ladder.hpp.
+#pragma once
+
+namespace render {
+
+// How the lens between pupil and scene is represented on the device.
+enum class LensForm {
+  exact,   // the surfaces themselves, each ray traced through both
+  mesh,    // two triangle meshes with normals at their vertices, which the paper (section 4) says it avoids
+  bezier,  // Bezier patches behind a bounding volume hierarchy, the paper's way (section 4)
+  field    // rays precomputed on a grid over the view and interpolated (Kakimoto et al. 2007, 2010)
+};
+
+struct LensAccuracy {
+  LensForm form = LensForm::exact;
+  int facets = 0;          // mesh: triangles of each surface
+  int field_side = 0;      // field: precomputed rays along each side of the view
+  int iterations = 0;      // exact: steps of Newton's method for a surface; 0: until they settle
+  int spacing = 1;         // exact: pixels between rays through the lens, those between interpolated; 1: every pixel
+  bool in_double = false;  // exact: surfaces and refraction in double precision on the device
+};
+
+enum class BlurKernel {
+  disc,     // the uniform ellipse of a round pupil
+  gaussian  // of the same second moments, the paper's (section 6.3)
+};
+
+struct BlurAccuracy {
+  BlurKernel kernel = BlurKernel::disc;
+  int taps = 16;  // the fewest of a gathered blur
+  int rate = 1;   // pixels between gathered ones where the minor semi-axis is a pixel or more
+};
+
+struct Foveation {
+  double fovea_deg = 0.0;  // full resolution within this angle of the gaze; 0: everywhere
+  int rate = 1;            // pixels of the periphery are this many wide
+};
+
+struct Accuracy {
+  LensAccuracy lens;
+  BlurAccuracy blur;
+  double resolution = 1.0;  // pixels traced along each side to pixels shown
+  Foveation foveation;
+};
+
+}  // namespace render

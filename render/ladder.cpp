@@ -11,6 +11,18 @@ constexpr std::array kLadder{
          .subject = "standard",
          .what = "every pixel through the exact lens, disc blur",
          .accuracy = {}},
+    Rung{.name = "lens-1-iteration",
+         .subject = "lens iterations",
+         .what = "one step of Newton's method for each surface",
+         .accuracy = {.lens = {.iterations = 1}}},
+    Rung{.name = "lens-2-iterations",
+         .subject = "lens iterations",
+         .what = "two steps of Newton's method for each surface",
+         .accuracy = {.lens = {.iterations = 2}}},
+    Rung{.name = "lens-3-iterations",
+         .subject = "lens iterations",
+         .what = "three steps of Newton's method for each surface, as the paper takes",
+         .accuracy = {.lens = {.iterations = 3}}},
 };
 
 }  // namespace

@@ -99,21 +99,21 @@ class GazeProgram {
     return time;
   }
 
-  struct Gaze {
+  struct Located {
     XrSpaceLocationFlags flags = 0;
-    tracking::Pose base_from_gaze;
+    tracking::Pose base_from_space;
     glm::dvec3 direction{0.0};
     XrTime sample_time = 0;
   };
 
-  [[nodiscard]] Gaze locate(XrSpace space, XrSpace base, XrTime time) const {
+  [[nodiscard]] Located locate(XrSpace space, XrSpace base, XrTime time) const {
     XrEyeGazeSampleTimeEXT sample{XR_TYPE_EYE_GAZE_SAMPLE_TIME_EXT, nullptr, -1};
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION, &sample, 0, xr::kIdentityPose};
     xr::check(xrLocateSpace(space, base, time, &location), "xrLocateSpace");
     const tracking::Pose found = xr::pose_of(location.pose);
     return {location.locationFlags, found, found.direction({0.0, 0.0, -1.0}), sample.time};
   }
-  [[nodiscard]] Gaze gaze(XrTime time) const { return locate(gaze_space, view.handle(), time); }
+  [[nodiscard]] Located gaze(XrTime time) const { return locate(gaze_space, view.handle(), time); }
 
   [[nodiscard]] bool is_active() const {
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO, nullptr, pose, XR_NULL_PATH};

@@ -58,6 +58,16 @@ bool contains(const std::vector<std::string>& names, const char* name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// Found both by itself and by name, the layer is in the chain twice, and one instance can only be answered for once.
+bool stands_below_too(const XrApiLayerNextInfo& ours) {
+  for (const XrApiLayerNextInfo* link = ours.next; link; link = link->next) {
+    if (std::strcmp(link->layerName, kLayerName) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // What the program asked for, less what the runtime does not know and the layer stands in for.
 struct ExtensionPlan {
   ExtensionUse gaze_interaction, eye_tracking;
@@ -147,12 +157,15 @@ XRAPI_ATTR XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info,
                                                XrInstance* out) noexcept {
   return guarded([&] {
     const XrApiLayerNextInfo& ours = our_link(info, layer_info);
+    XrApiLayerCreateInfo below_layer = *layer_info;
+    below_layer.nextInfo = ours.next;
+    if (stands_below_too(ours)) {
+      return ours.nextCreateApiLayerInstance(info, &below_layer, out);
+    }
     const ExtensionPlan plan = plan_extensions(*info, ours);
     XrInstanceCreateInfo below = *info;
     below.enabledExtensionCount = static_cast<std::uint32_t>(plan.below.size());
     below.enabledExtensionNames = plan.below.data();
-    XrApiLayerCreateInfo below_layer = *layer_info;
-    below_layer.nextInfo = ours.next;
     const XrResult result = check(ours.nextCreateApiLayerInstance(&below, &below_layer, out));
     try {
       handles().instances.add(*out, make_instance(*out, ours, plan));

@@ -11,33 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/monado.hpp"
+#include "tests/support/gaze_traces.hpp"
 #include "xr/actions.hpp"
 #include "xr/convert.hpp"
 #include "xr/session.hpp"
 #include "xr/spaces.hpp"
 
 namespace support {
-
-inline constexpr const char* kGazeHeader =
-    "time_s,head_px,head_py,head_pz,head_qx,head_qy,head_qz,head_qw,left_gx,left_gy,left_gz,right_gx,right_gy,right_gz,"
-    "gaze_valid\n";
-
-// A row of a trace; the head's own pose is the runtime's affair.
-inline std::string gaze_row(double time, const glm::dvec3& left, const glm::dvec3& right, bool valid = true) {
-  char text[512];
-  std::snprintf(text, sizeof(text), "%.17g,0,0,0,0,0,0,1,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", time, left.x,
-                left.y, left.z, right.x, right.y, right.z, valid ? 1 : 0);
-  return text;
-}
-
-// Loads the gaze layer, and others before (above) or behind it.
-inline void enable_layers(const std::string& names) {
-  setenv("XR_API_LAYER_PATH", VERGENCE_GAZE_LAYER ":/usr/share/openxr/1/api_layers/explicit.d", 1);
-  setenv("XR_ENABLE_API_LAYERS", names.c_str(), 1);
-}
-
-inline constexpr const char* kGazeLayer = "XR_APILAYER_VERGENCE_gaze";
 
 class GazeProgram {
  public:
@@ -130,18 +110,6 @@ class GazeProgram {
   xr::ActionBindings bindings;
   XrSpace gaze_space = XR_NULL_HANDLE;
   std::vector<XrStructureType> events;
-};
-
-// A file that is gone with the test.
-class TraceFile {
- public:
-  TraceFile(const Monado& monado, const std::string& rows) : path_(monado.folder() / "trace.csv") {
-    std::ofstream(path_) << kGazeHeader << rows;
-    setenv("VERGENCE_GAZE_TRACE", path_.c_str(), 1);
-  }
-
- private:
-  std::filesystem::path path_;
 };
 
 inline constexpr XrSpaceLocationFlags kValidBits =

@@ -51,7 +51,8 @@ class FrameJob {
   gpu::FrameData data_{};
 };
 
-// Whether a frame of these settings has every pixel's wavefront in memory.
-[[nodiscard]] bool keeps_wavefront(const FrameConfig& config);
+// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
+// them where each pixel has a focus of its own.
+[[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
 
 }  // namespace render

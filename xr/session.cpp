@@ -24,11 +24,19 @@ Session::Session(const Instance& instance, const GraphicsBinding& graphics) : in
   binding.device = graphics.device;
   binding.queueFamilyIndex = graphics.queue_family;
   binding.queueIndex = graphics.queue;
+  create(&binding);
+}
+
+Session::Session(const Instance& instance) : instance_(instance) {
+  create(nullptr);
+}
+
+void Session::create(const void* graphics_binding) {
   XrSessionCreateInfo info{};
   info.type = XR_TYPE_SESSION_CREATE_INFO;
-  info.next = &binding;
-  info.systemId = instance.system();
-  check(xrCreateSession(instance.handle(), &info, &session_), "xrCreateSession");
+  info.next = graphics_binding;
+  info.systemId = instance_.system();
+  check(xrCreateSession(instance_.handle(), &info, &session_), "xrCreateSession");
 }
 
 Session::~Session() {

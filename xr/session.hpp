@@ -20,6 +20,8 @@ class Session {
  public:
   // Refers to the instance.
   Session(const Instance& instance, const GraphicsBinding& graphics);
+  // Poses and input without pictures; the instance has XR_MND_headless.
+  explicit Session(const Instance& instance);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -42,6 +44,7 @@ class Session {
   void request_exit();
 
  private:
+  void create(const void* graphics_binding);
   void enter(XrSessionState state);
 
   const Instance& instance_;

@@ -31,6 +31,14 @@ void print(std::ostream& out, const char* where, const Times& times) {
   }
 }
 
+std::string sources_text(const VrReport& report) {
+  std::string text;
+  for (const auto& [source, frames] : report.gaze_sources) {
+    text += (text.empty() ? "" : ", ") + source + " (" + std::to_string(frames) + " frames)";
+  }
+  return text;
+}
+
 }  // namespace
 
 void TimeRing::add(double milliseconds) {
@@ -65,7 +73,7 @@ std::string to_table(const VrReport& report) {
   std::ostringstream out;
   out << "runtime  " << report.runtime << "\nheadset  " << report.headset << "\ndevice   " << report.device
       << "\nspace    " << report.space << "\nimages   " << report.width << 'x' << report.height << " each, and "
-      << report.guard_px << " pixels around them\ngaze     " << report.gaze_source << "\nframes   " << report.shown
+      << report.guard_px << " pixels around them\ngaze     " << sources_text(report) << "\nframes   " << report.shown
       << " shown, " << report.skipped << " without a picture\n\n";
   out << std::fixed << std::setprecision(3) << "                      ms median      p99\n";
   print(out, "host", report.host);
@@ -80,7 +88,7 @@ std::string to_json(const VrReport& report) {
                                     {"space", report.space},
                                     {"size", std::to_string(report.width) + "x" + std::to_string(report.height)},
                                     {"guard_px", report.guard_px},
-                                    {"gaze_source", report.gaze_source},
+                                    {"gaze_frames", report.gaze_sources},
                                     {"frames_shown", report.shown},
                                     {"frames_skipped", report.skipped},
                                     {"host_ms", json_of(report.host)},

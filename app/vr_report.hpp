@@ -1,6 +1,7 @@
 // What a session in the headset was, in numbers.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,7 @@ struct VrReport {
   std::string runtime, headset, device, space;
   int width = 0, height = 0;  // of each eye's image
   int guard_px = 0;
-  std::string gaze_source;
+  std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order
   std::vector<std::pair<std::string, TimeRing>> device_stages;

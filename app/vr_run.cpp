@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/device.hpp"
+#include "app/headset_device.hpp"
 #include "app/live_wearer.hpp"
 #include "app/mode_option.hpp"
 #include "app/option_values.hpp"
@@ -16,7 +17,7 @@
 #include "tracking/input_error.hpp"
 #include "xr/actions.hpp"
 #include "xr/frame_loop.hpp"
-#include "xr/vulkan_binding.hpp"
+#include "xr/gaze_input.hpp"
 
 namespace app {
 namespace {
@@ -107,24 +108,10 @@ std::array<int, 2> size_of_images(const VrOptions& options, const xr::Instance& 
   return {std::max(sizes[0][0], sizes[1][0]), std::max(sizes[0][1], sizes[1][1])};
 }
 
-render::vk::DeviceMaker maker_of(const xr::VulkanBinding& binding) {
-  return {.make_instance = [&](const VkInstanceCreateInfo& info,
-                               PFN_vkGetInstanceProcAddr loader) { return binding.make_instance(info, loader); },
-          .pick_device = [&](VkInstance instance) { return binding.pick_device(instance); },
-          .make_device = [&](VkPhysicalDevice physical, const VkDeviceCreateInfo& info,
-                             PFN_vkGetInstanceProcAddr loader) { return binding.make_device(physical, info, loader); }};
-}
-
-render::vk::Device open_headset_device(const VrOptions& options, const xr::Instance& instance) {
-  const xr::VulkanBinding binding(instance, VK_API_VERSION_1_2);
-  const render::vk::DeviceMaker maker = maker_of(binding);
-  return render::vk::Device(
-      {.device = options.device, .validation = kValidation, .pipeline_cache = pipeline_cache_file(), .maker = &maker});
-}
-
-xr::GraphicsBinding binding_of(const render::vk::Device& device) {
-  const render::vk::ExternalHandles handles = render::vk::external_handles(device);
-  return {handles.instance, handles.physical, handles.device, handles.queue_family, handles.queue};
+std::vector<std::string> wanted_extensions() {
+  std::vector<std::string> names = xr::gaze_extensions();
+  names.emplace_back(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME);
+  return names;
 }
 
 class VrRun {
@@ -134,14 +121,17 @@ class VrRun {
         scene_(render::read_gltf(options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene)),
         wearer_(make_render_setup(scene_options(options), scene_), scene_),
         config_(frame_config(options)),
-        instance_({.wanted_extensions = {XR_EXT_LOCAL_FLOOR_EXTENSION_NAME}}),
-        device_(open_headset_device(options, instance_)),
+        instance_({.wanted_extensions = wanted_extensions()}),
+        device_(open_headset_device(
+            instance_, {.device = options.device, .validation = kValidation, .pipeline_cache = pipeline_cache_file()})),
         renderer_(device_, scene_, {.traversal = render::Traversal::automatic, .traversal_file = traversal_file()}),
-        session_(instance_, binding_of(device_)),
+        session_(instance_, graphics_of(device_)),
         bindings_(instance_),
+        gaze_actions_(instance_, bindings_),
         loop_(session_, {.space = space_of(options.space), .size = size_of_images(options, instance_)}),
         world_from_space_(world_from_space(options.scene, scene_, loop_.space().type())) {
     bindings_.attach(session_);
+    gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
     loop_.while_idle([this] { return !stop_if_wanted(); });
     config_.frame.width = loop_.swapchain(Side::left).width();
     config_.frame.height = loop_.swapchain(Side::left).height();
@@ -153,7 +143,6 @@ class VrRun {
     report_.space = name_of(loop_.space().type());
     report_.width = config_.frame.width;
     report_.height = config_.frame.height;
-    report_.gaze_source = "head direction";
   }
 
   VrReport run() {
@@ -208,6 +197,10 @@ class VrRun {
   void place(const xr::Frame& frame) {
     Sighting sighting;
     sighting.world_from_head = world_from_space_ * frame.space_from_head;
+    const tracking::FollowedGaze gaze = gaze_.step(xr::seconds(frame.display_time), sighting.world_from_head,
+                                                   gaze_input_->read(loop_.view_space(), frame.display_time));
+    sighting.gaze = gaze.target[0] + gaze.target[1];
+    ++report_.gaze_sources[std::string(xr::source_name(gaze))];
     for (const Side side : {Side::right, Side::left}) {
       const auto i = static_cast<std::size_t>(side);
       sighting.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
@@ -308,6 +301,9 @@ class VrRun {
   render::Renderer renderer_;
   xr::Session session_;
   xr::ActionBindings bindings_;
+  xr::GazeActions gaze_actions_;
+  std::unique_ptr<xr::GazeInput> gaze_input_;
+  tracking::GazeFollower gaze_;
   xr::FrameLoop loop_;
   Pose world_from_space_;
   std::unique_ptr<render::LiveFrame> live_;

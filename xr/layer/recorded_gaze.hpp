@@ -22,7 +22,7 @@ class RecordedGaze : public GazeSource {
  private:
   std::vector<tracking::TraceRow> rows_;  // at least one, times increase
   AtEnd at_end_;
-  double period_;  // of the loop, s
+  double period_;  // s, from its beginning to its end
 };
 
 }  // namespace xr::layer

@@ -56,7 +56,8 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 std::string header_text() {
   std::string text;
   for (const std::string_view name : kTraceColumns) {
-    text += (text.empty() ? "" : ",") + std::string(name);
+    if (!text.empty()) text += ',';
+    text += name;
   }
   return text;
 }
@@ -94,7 +95,7 @@ class Parser {
  private:
   [[noreturn]] void fail(std::string_view column, const std::string& reason) const {
     std::string place = "line " + std::to_string(number_);
-    if (!column.empty()) place += ": " + std::string(column);
+    if (!column.empty()) place.append(": ").append(column);
     throw InputError(file_, place, reason);
   }
 

@@ -52,7 +52,10 @@ bool readable(const TraceRow& row) {
 
 std::string header_of(const GazeTraceWriter::Columns& columns) {
   std::string line;
-  const auto add = [&](std::string_view name) { line += (line.empty() ? "" : ",") + std::string(name); };
+  const auto add = [&](std::string_view name) {
+    if (!line.empty()) line += ',';
+    line += name;
+  };
   for (const std::string_view name : kTraceColumns) add(name);
   for (const std::string_view name : kEyeColumns) {
     if (columns.eyes) add(name);
@@ -99,7 +102,8 @@ bool GazeTraceWriter::write(const TraceRow& row) {
     }
   }
   if (columns_.source) {
-    line += std::string(",") + name(row.source.value_or(row.gaze_valid ? GazeSource::tracker : GazeSource::held));
+    line += ',';
+    line += name(row.source.value_or(row.gaze_valid ? GazeSource::tracker : GazeSource::held));
   }
   put(line);
   last_time_ = row.time;

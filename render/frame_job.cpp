@@ -63,6 +63,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.keep_wavefront = keeps_wavefront(config, views);
   variant_.bare = config.bare;
   variant_.hits_known = traversal != Traversal::per_ray;
+  variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
   }

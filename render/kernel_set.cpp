@@ -107,7 +107,7 @@ bool can_trace_tiles(const vk::DeviceLimits& limits) {
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
   // By constant id, then the stage.
-  std::array<std::uint32_t, 7> key{};
+  std::array<std::uint32_t, 9> key{};
   key.back() = static_cast<std::uint32_t>(stage);
   std::size_t count = 0;
   if (recipe.constants == Constants::lanes_and_features) {
@@ -118,18 +118,20 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[0] = variant.surface_kinds;
     key[1] = variant.scene_features;
     key[4] = variant.bare ? 1U : 0U;
-    count = 5;
+    key[5] = variant.newton_steps;
+    key[6] = variant.keep_transfer ? 1U : 0U;
+    count = 7;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
     key[3] = variant.keep_wavefront ? 1U : 0U;
   }
   if (recipe.constants == Constants::aim || recipe.constants == Constants::samples) {
-    key[5] = (recipe.constants == Constants::aim ? variant.sampled : variant.hits_known) ? 1U : 0U;
-    count = 6;
+    key[7] = (recipe.constants == Constants::aim ? variant.sampled : variant.hits_known) ? 1U : 0U;
+    count = 8;
   }
   if (recipe.constants == Constants::samples) {
-    key[0] = 0;  // the lens is behind them
+    key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {

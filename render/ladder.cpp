@@ -6,11 +6,52 @@
 namespace render {
 namespace {
 
+constexpr Rung samples_rung(std::string_view name, int samples) {
+  return {.name = name,
+          .subject = "dof samples",
+          .what = "distributed rays over the pupil (the paper's DOF)",
+          .accuracy = {},
+          .mode = Mode::dof,
+          .samples = samples};
+}
+
 constexpr std::array kLadder{
     Rung{.name = "standard",
          .subject = "standard",
          .what = "every pixel through the exact lens, disc blur",
          .accuracy = {}},
+
+    // The lens.
+    Rung{.name = "lens-1-iteration",
+         .subject = "lens iterations",
+         .what = "one step of Newton's method for each surface",
+         .accuracy = {.lens = {.iterations = 1}}},
+    Rung{.name = "lens-2-iterations",
+         .subject = "lens iterations",
+         .what = "two steps of Newton's method for each surface",
+         .accuracy = {.lens = {.iterations = 2}}},
+    Rung{.name = "lens-3-iterations",
+         .subject = "lens iterations",
+         .what = "three steps of Newton's method for each surface, as the paper takes",
+         .accuracy = {.lens = {.iterations = 3}}},
+
+    // Modes and distributed rays.
+    Rung{.name = "pinhole",
+         .subject = "mode",
+         .what = "no defocus at all (the paper's PIN)",
+         .accuracy = {},
+         .mode = Mode::pinhole},
+    Rung{.name = "vis",
+         .subject = "mode",
+         .what = "a map of power instead of a picture (the paper's VIS)",
+         .accuracy = {},
+         .mode = Mode::power},
+
+    samples_rung("dof-1", 1),
+    samples_rung("dof-4", 4),
+    samples_rung("dof-16", 16),
+    samples_rung("dof-64", 64),
+    samples_rung("dof-256", 256),
 };
 
 }  // namespace

@@ -131,7 +131,7 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     count = 9;
   }
   if (recipe.constants == Constants::samples) {
-    key[0] = 0;  // the lens is behind them
+    key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {

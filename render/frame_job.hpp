@@ -1,12 +1,14 @@
 // One frame in the making: its settings on the device, and the recording of each stage.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lenses/lens_model.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/corner_grid.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/commands.hpp"
 
@@ -31,6 +33,7 @@ class FrameJob {
   using Buffers = std::vector<const vk::Buffer*>;
 
   void aim(vk::Commands& commands);
+  void aim_between_corners(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
@@ -47,11 +50,21 @@ class FrameJob {
   Traversal traversal_;
   const vk::Buffer* accelerated_ = nullptr;  // where rays are traced by ray queries
   vk::Buffer table_, views_;
+  std::optional<vk::Buffer> double_table_, double_views_;  // where the lens is traced in double precision
+  CornerGrid corners_;
+  bool trace_corners_ = false;  // of each frame anew; a field's may be known
   TraceVariant variant_;
   gpu::FrameData data_{};
 };
 
 // Whether a frame of these settings has every pixel's wavefront in memory.
 [[nodiscard]] bool keeps_wavefront(const FrameConfig& config);
+
+// Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
+// to know the lens's form.
+[[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
+
+// What a frame of so many views needs. traversal: not automatic.
+[[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, std::size_t views, Traversal traversal);
 
 }  // namespace render

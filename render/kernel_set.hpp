@@ -12,6 +12,9 @@ namespace render {
 
 enum class Stage : std::uint32_t {
   rays,
+  rays_double,
+  corners,
+  between,
   unsettled,
   tile,
   ray_query,
@@ -38,6 +41,7 @@ struct TraceVariant {
   bool bare = false;  // one light, no shadow rays
   std::uint32_t newton_steps = 0;  // LensAccuracy::iterations
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
+  bool find_hits = false;          // found rays are not known to have met anything yet
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
@@ -52,7 +56,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 8>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 9>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

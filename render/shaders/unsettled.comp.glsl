@@ -16,6 +16,6 @@ void main() {
     int at = int(unsettled[kListFirstAt + i]);
     int in_view = at - frame.view.x * frame.size.x * frame.size.y;
     vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
-    leave_ray(view, aim_pixel(view, pixel_direction(view, p + 0.5), vec2(0.0), vec2(0.0)), at);
+    leave(view, aim_pixel(view, pixel_direction(view, p + 0.5), vec2(0.0), vec2(0.0)), at);
   }
 }

@@ -17,7 +17,7 @@ struct FrameBuffers {
   struct Size {
     std::size_t pixels = 0;  // of all views
     bool wavefront = false, sums = false;
-    bool hits = false;  // what chief rays meet is found by a kernel of its own
+    bool hits = false;             // what rays meet is found by a kernel of its own
     bool transfers = false;       // rays leave their ray-transfer matrices
     std::size_t corner_rays = 0;  // of interpolated lens rays, of all views
 

@@ -1,5 +1,6 @@
 #include "render/frame_job.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -7,6 +8,7 @@
 #include "render/gpu_tracer.hpp"
 #include "render/lens_forms/double_view.hpp"
 #include "render/map_range.hpp"
+#include "render/sample_point.hpp"
 
 namespace render {
 namespace {
@@ -41,19 +43,24 @@ bool keeps_transfer(const LensAccuracy& lens) {
   return lens.form != LensForm::exact || lens.in_double || lens.spacing > 1;
 }
 
-FrameBuffers::Size buffers_for(const FrameConfig& config, std::size_t views, Traversal traversal) {
-  const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
-  const bool transfers = keeps_transfer(config.accuracy.lens);
-  return {.pixels = pixels * views,
-          .wavefront = keeps_wavefront(config),
-          .sums = config.mode == Mode::dof,
-          .hits = traversal != Traversal::per_ray || transfers,
-          .transfers = transfers,
-          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views};
+bool serves_samples(const LensAccuracy& lens) {
+  return lens.form != LensForm::field && (lens.form != LensForm::exact || lens.spacing == 1);
 }
 
-bool keeps_wavefront(const FrameConfig& config) {
-  return is_map(config.mode) || config.mode == Mode::dof || config.keep_wavefront;
+FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views, Traversal traversal) {
+  const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
+  const bool transfers = keeps_transfer(config.accuracy.lens);
+  return {.pixels = pixels * views.size(),
+          .wavefront = keeps_wavefront(config, views),
+          .sums = config.mode == Mode::dof,
+          .hits = traversal != Traversal::per_ray || config.mode == Mode::dof || transfers,
+          .transfers = transfers,
+          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size()};
+}
+
+bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views) {
+  const bool own_focus = std::ranges::any_of(views, [](const ViewSetup& view) { return !view.accommodation; });
+  return is_map(config.mode) || (config.mode == Mode::dof && own_focus) || config.keep_wavefront;
 }
 
 FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
@@ -74,11 +81,10 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.surface_kinds = surface_kinds(worn);
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
-  variant_.keep_wavefront = keeps_wavefront(config);
+  variant_.keep_wavefront = keeps_wavefront(config, views);
   variant_.bare = config.bare;
   variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
   variant_.keep_transfer = variant_.surface_kinds != 0 && keeps_transfer(config.accuracy.lens);
-  variant_.find_hits = traversal == Traversal::per_ray;
   if (variant_.surface_kinds == 0) {
     corners_ = {};  // nothing to interpolate
   }
@@ -98,6 +104,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
     out_.corners_of = std::move(key);
     data_.corners = glm::vec4(corners_.spacing, corners_.count);
   }
+  variant_.hits_known = traversal != Traversal::per_ray;
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
   }
@@ -117,15 +124,14 @@ void FrameJob::set_range(const MapRange& range) {
 }
 
 void FrameJob::record_trace(vk::Commands& commands) {
+  variant_.sampled = false;
   if (traversal_ == Traversal::per_ray && !variant_.keep_transfer) {
     trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
   } else {
     aim(commands);
-    commands.timestamp("rays");
-    if (traversal_ != Traversal::per_ray) {
+    if (variant_.hits_known) {
       find_hits(commands);
     }
-    commands.barrier();
     trace_with(commands, Stage::found,
                {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions,
                 &out_.transfers});
@@ -135,15 +141,17 @@ void FrameJob::record_trace(vk::Commands& commands) {
 
 // A view's list is worked off before the next view's is made: they share the memory.
 void FrameJob::aim(vk::Commands& commands) {
-  const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.transfers});
+  const Buffers buffers =
+      with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.wavefronts, &out_.transfers});
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     empty_list(commands, out_.list);
     commands.barrier();
-    if (corners_.rays() > 0) {
+    if (corners_.rays() > 0 && !variant_.sampled) {
       aim_between_corners(commands);
     } else if (double_views_) {
       dispatch_view(commands, kernels_.get(Stage::rays_double, variant_),
-                    {&*double_table_, &*double_views_, &out_.ray_origins, &out_.ray_directions, &out_.transfers});
+                    {&*double_table_, &*double_views_, &out_.ray_origins, &out_.ray_directions, &out_.transfers,
+                     &out_.wavefronts});
     } else {
       dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
     }
@@ -153,6 +161,7 @@ void FrameJob::aim(vk::Commands& commands) {
       commands.barrier();
     }
   }
+  commands.timestamp("rays");
 }
 
 void FrameJob::aim_between_corners(vk::Commands& commands) {
@@ -167,7 +176,6 @@ void FrameJob::aim_between_corners(vk::Commands& commands) {
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {
-  commands.barrier();
   empty_list(commands, out_.list);
   commands.barrier();
   if (accelerated_ != nullptr) {
@@ -226,8 +234,16 @@ void FrameJob::record_encode(vk::Commands& commands) {
 }
 
 void FrameJob::record_sample(vk::Commands& commands, int index) {
+  variant_.sampled = true;
   data_.sampling.x = index;
-  trace_with(commands, Stage::samples, {&out_.wavefronts, &out_.sums, &out_.radiance});
+  data_.sample_point = sample_point(static_cast<std::uint32_t>(index), config_.seed);
+  aim(commands);
+  if (variant_.hits_known) {
+    find_hits(commands);
+  }
+  trace_with(commands, Stage::samples,
+             {&out_.sums, &out_.radiance, &out_.hits, &out_.ray_origins, &out_.ray_directions});
+  commands.timestamp("samples");
   commands.barrier();
 }
 

@@ -57,14 +57,20 @@ class FrameJob {
   gpu::FrameData data_{};
 };
 
-// Whether a frame of these settings has every pixel's wavefront in memory.
-[[nodiscard]] bool keeps_wavefront(const FrameConfig& config);
+// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
+// them where each pixel has a focus of its own.
+[[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
 
 // Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
 // to know the lens's form.
 [[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
 
-// What a frame of so many views needs. traversal: not automatic.
-[[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, std::size_t views, Traversal traversal);
+// Whether a lens of this accuracy has rays for the samples of mode dof: one that is interpolated between chief rays has
+// none.
+[[nodiscard]] bool serves_samples(const LensAccuracy& lens);
+
+// What a frame of these views needs. traversal: not automatic.
+[[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views,
+                                             Traversal traversal);
 
 }  // namespace render

@@ -6,11 +6,22 @@
 namespace render {
 namespace {
 
+constexpr Rung samples_rung(std::string_view name, int samples) {
+  return {.name = name,
+          .subject = "dof samples",
+          .what = "distributed rays over the pupil (the paper's DOF)",
+          .accuracy = {},
+          .mode = Mode::dof,
+          .samples = samples};
+}
+
 constexpr std::array kLadder{
     Rung{.name = "standard",
          .subject = "standard",
          .what = "every pixel through the exact lens, disc blur",
          .accuracy = {}},
+
+    // The lens.
     Rung{.name = "lens-1-iteration",
          .subject = "lens iterations",
          .what = "one step of Newton's method for each surface",
@@ -67,6 +78,24 @@ constexpr std::array kLadder{
          .subject = "lens field",
          .what = "256 x 256 lens rays over the view, kept while eye and lens stay, those between interpolated",
          .accuracy = {.lens = {.form = LensForm::field, .field_side = 256}}},
+
+    // Modes and distributed rays.
+    Rung{.name = "pinhole",
+         .subject = "mode",
+         .what = "no defocus at all (the paper's PIN)",
+         .accuracy = {},
+         .mode = Mode::pinhole},
+    Rung{.name = "vis",
+         .subject = "mode",
+         .what = "a map of power instead of a picture (the paper's VIS)",
+         .accuracy = {},
+         .mode = Mode::power},
+
+    samples_rung("dof-1", 1),
+    samples_rung("dof-4", 4),
+    samples_rung("dof-16", 16),
+    samples_rung("dof-64", 64),
+    samples_rung("dof-256", 256),
 };
 
 }  // namespace

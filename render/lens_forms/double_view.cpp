@@ -37,7 +37,9 @@ void lay_view(Part at, const ViewSetup& setup, const lenses::f64::LensData& lens
     at[gpu::kDoubleVirtualImageAt] = {setup.virtual_image->distance, setup.virtual_image->origin_behind_pupil, 0.0,
                                       0.0};
   }
+  at[gpu::kDoubleExcessAt] = setup.eye.excess;
   at[gpu::kDoublePupilAt] = setup.eye.pupil;
+  at[gpu::kDoublePupilAt].z = setup.accommodation.value_or(-1.0);
   std::ranges::copy(std::initializer_list<glm::dvec4>{lens.axis_x, lens.axis_y, lens.axis_z, lens.glass,
                                                       glm::dvec4(lens.mount)},
                     at.begin() + gpu::kDoubleLensAt);

@@ -10,7 +10,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 12) buffer Mixed { uint mixed_pixels[]; };
-layout(binding = 14) uniform samplerBuffer corners;
+layout(binding = 13) uniform samplerBuffer corners;
 
 int corner_at(ivec2 corner) {
   ivec2 count = ivec2(frame.corners.zw);

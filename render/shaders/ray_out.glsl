@@ -4,7 +4,7 @@
 layout(std430, binding = 10) writeonly buffer Origins { vec4 origins[]; };
 // Unit; w: the length in glass, 0 for a ray that meets no lens, minus the status where a rim ends the ray.
 layout(std430, binding = 11) writeonly buffer Directions { vec4 directions[]; };
-layout(std430, binding = 13) writeonly buffer Kept { vec4 kept[]; };  // kTransferTexels a pixel
+layout(std430, binding = 14) writeonly buffer Kept { vec4 kept[]; };  // kTransferTexels a pixel
 
 void leave_ray(ViewData view, PixelRay ray, int at) {
   SceneRay beyond = scene_ray(view, ray);

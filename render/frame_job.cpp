@@ -28,6 +28,8 @@ constexpr auto kBareFeatures =
 constexpr float kLargestBlur = 512.0F;  // px; beyond it nothing is left to see
 constexpr float kNoBlurDrawn = 1e9F;    // px, as a threshold
 
+}  // namespace
+
 std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
   std::vector<gpu::ViewData> data;
   for (const ViewSetup& view : views) {
@@ -37,7 +39,9 @@ std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std:
   return data;
 }
 
-}  // namespace
+bool encodes_later(const FrameConfig& config) {
+  return config.mode == Mode::dof || (is_map(config.mode) && !config.range);
+}
 
 bool keeps_transfer(const LensAccuracy& lens) {
   return lens.form != LensForm::exact || lens.in_double || lens.spacing > 1;
@@ -121,6 +125,29 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
 void FrameJob::set_range(const MapRange& range) {
   data_.map_range = glm::vec4(static_cast<float>(range.low), static_cast<float>(range.high),
                               static_cast<float>(map_unit_factor(config_.mode)), 0.0F);
+}
+
+void FrameJob::record_views(vk::Commands& commands, const vk::Buffer& from) {
+  commands.copy(from, views_, views_.bytes());
+  commands.barrier();
+}
+
+void FrameJob::record_picture(vk::Commands& commands) {
+  if (config_.mode != Mode::dof || variant_.keep_wavefront) {
+    record_trace(commands);
+  }
+  if (config_.mode == Mode::adof || config_.mode == Mode::pinhole) {
+    if (!config_.bare) {
+      record_edges(commands);
+    }
+    record_blur(commands);
+    if (!config_.keep_radiance) {
+      return;  // the blur has encoded too
+    }
+  }
+  if (!encodes_later(config_)) {
+    record_encode(commands);
+  }
 }
 
 void FrameJob::record_trace(vk::Commands& commands) {

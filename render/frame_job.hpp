@@ -23,6 +23,11 @@ class FrameJob {
 
   void set_range(const MapRange& range);
 
+  // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
+  void record_views(vk::Commands& commands, const vk::Buffer& from);
+  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
+  void record_picture(vk::Commands& commands);
+
   void record_trace(vk::Commands& commands);
   void record_edges(vk::Commands& commands);
   void record_blur(vk::Commands& commands);
@@ -56,6 +61,13 @@ class FrameJob {
   TraceVariant variant_;
   gpu::FrameData data_{};
 };
+
+// Views as the kernels take them, kMostViews of them.
+[[nodiscard]] std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses,
+                                                   const std::vector<ViewSetup>& views);
+
+// Whether samples or a map's range come between the picture's trace and its encoding.
+[[nodiscard]] bool encodes_later(const FrameConfig& config);
 
 // Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
 // them where each pixel has a focus of its own.

@@ -52,28 +52,15 @@ struct Renderer::State {
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
-    if (config.mode != Mode::dof || keeps_wavefront(config, views)) {
-      job.record_trace(commands);
-    }
-    if (config.mode == Mode::adof || config.mode == Mode::pinhole) {
-      if (!config.bare) {
-        job.record_edges(commands);
-      }
-      job.record_blur(commands);
-    }
-    const bool encode_later = config.mode == Mode::dof || (is_map(config.mode) && !config.range);
-    const bool blur_encodes = !is_map(config.mode) && config.mode != Mode::dof && !config.keep_radiance;
-    if (!encode_later && !blur_encodes) {
-      job.record_encode(commands);
-    }
+    job.record_picture(commands);
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
       take_samples(job, out, config, result, progress);
-    } else if (encode_later) {
+    } else if (encodes_later(config)) {
       result.range = map_range_of(config.mode, out.wavefronts.read<glm::vec4>(2 * out.size.pixels));
       job.set_range(result.range);
     }
-    if (encode_later) {
+    if (encodes_later(config)) {
       vk::Commands last(device);
       job.record_encode(last);
       add_times(result.stages, device.run(last));
@@ -169,6 +156,12 @@ void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSe
   small.width = small.height = 8;
   small.samples = 1;
   (void)render(lenses, views, small);
+}
+
+RendererParts Renderer::parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                              const FrameConfig& config) {
+  State& s = *state_;
+  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, lenses, views, config)};
 }
 
 std::size_t Renderer::kernels_made() const {

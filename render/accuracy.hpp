@@ -38,10 +38,10 @@ struct Foveation {
 };
 
 struct Accuracy {
-  LensAccuracy lens;
-  BlurAccuracy blur;
+  LensAccuracy lens = {};
+  BlurAccuracy blur = {};
   double resolution = 1.0;  // pixels traced along each side to pixels shown
-  Foveation foveation;
+  Foveation foveation = {};
 };
 
 }  // namespace render

@@ -59,6 +59,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config);
   variant_.bare = config.bare;
+  variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
   }

@@ -38,21 +38,20 @@ std::uint32_t surface_kinds(const std::vector<lenses::f64::LensData>& lenses) {
   return kinds;
 }
 
-std::vector<lenses::f32::TraceOutput> GpuTracer::trace(const lenses::TraceBatch& batch) {
+std::vector<lenses::f32::TraceOutput> GpuTracer::trace(const lenses::TraceBatch& batch, int newton_steps) {
   using lenses::f32::TraceInput;
   using lenses::f32::TraceOutput;
   std::vector<TraceOutput> results;
   if (batch.rays.empty()) {
     return results;
   }
-  const std::uint32_t kinds = surface_kinds(batch.model.lens);
-  auto found = kernels_.find(kinds);
+  const std::array constants{surface_kinds(batch.model.lens), static_cast<std::uint32_t>(newton_steps)};
+  auto found = kernels_.find(constants);
   if (found == kernels_.end()) {
     const std::array bindings{vk::Binding::texel_rgba32f, vk::Binding::storage_buffer, vk::Binding::storage_buffer,
                               vk::Binding::storage_buffer, vk::Binding::storage_buffer};
     found = kernels_
-                .emplace(kinds, vk::Kernel(device_, shaders::trace, bindings, sizeof(std::uint32_t),
-                                           std::span(&kinds, 1), "trace"))
+                .emplace(constants, vk::Kernel(device_, shaders::trace, bindings, sizeof(std::uint32_t), constants, "trace"))
                 .first;
   }
   const std::vector<glm::vec4> entries = lenses::to_float(batch.model.table);

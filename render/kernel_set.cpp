@@ -106,7 +106,7 @@ bool can_trace_tiles(const vk::DeviceLimits& limits) {
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
   // By constant id, then the stage.
-  std::array<std::uint32_t, 6> key{};
+  std::array<std::uint32_t, 8> key{};
   key.back() = static_cast<std::uint32_t>(stage);
   std::size_t count = 0;
   if (recipe.constants == Constants::lanes_and_features) {
@@ -117,7 +117,9 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[0] = variant.surface_kinds;
     key[1] = variant.scene_features;
     key[4] = variant.bare ? 1U : 0U;
-    count = 5;
+    key[5] = variant.newton_steps;
+    key[6] = variant.keep_transfer ? 1U : 0U;
+    count = 7;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;

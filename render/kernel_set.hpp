@@ -36,6 +36,8 @@ struct TraceVariant {
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
   bool bare = false;  // one light, no shadow rays
+  std::uint32_t newton_steps = 0;  // LensAccuracy::iterations
+  bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
@@ -50,7 +52,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 6>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 8>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

@@ -33,6 +33,21 @@ constexpr std::array kLadder{
          .what = "every pixel through the exact lens, disc blur",
          .accuracy = {}},
 
+    // The lens.
+    Rung{.name = "lens-1-iteration",
+         .subject = "lens iterations",
+         .what = "one step of Newton's method for each surface",
+         .accuracy = {.lens = {.iterations = 1}}},
+    Rung{.name = "lens-2-iterations",
+         .subject = "lens iterations",
+         .what = "two steps of Newton's method for each surface",
+         .accuracy = {.lens = {.iterations = 2}}},
+    Rung{.name = "lens-3-iterations",
+         .subject = "lens iterations",
+         .what = "three steps of Newton's method for each surface, as the paper takes",
+         .accuracy = {.lens = {.iterations = 3}}},
+
+    // Modes and distributed rays.
     Rung{.name = "pinhole",
          .subject = "mode",
          .what = "no defocus at all (the paper's PIN)",

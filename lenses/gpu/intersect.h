@@ -12,6 +12,7 @@ struct SurfaceHit {
   bool found;
   bool ledge;      // not found, as the ray ends in the wall between a segment and its base, before t
   bool unsettled;  // not found, and not searched for any longer (HURRIED)
+  int steps;       // of Newton's method; -1 where another search or a closed form found it
   real t;
   SurfacePoint point;
 };
@@ -83,6 +84,7 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
   hit.found = false;
   hit.ledge = false;
   hit.unsettled = false;
+  hit.steps = -1;
   hit.t = real(0);
   bool sheet = false;
   real dd = real(1);
@@ -106,13 +108,13 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
   bool above = false;
   bool search = !sheet;
   vec2 range = vec2(real(1), real(0));
-  if (!HURRIED) {
+  if (!HURRIED && NEWTON_STEPS == 0) {
     range = within_cylinder(KINDS(kinds) s, o, d, semi_diameter);
   }
   for (int i = 0; i < kMostEvaluations; ++i) {
     if (search) {
       if (HURRIED || !(range.y > range.x)) {
-        hit.unsettled = HURRIED;
+        hit.unsettled = HURRIED && NEWTON_STEPS == 0;
         break;
       }
       search = false;
@@ -133,13 +135,17 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
       bool steep = slope < real(-0.33);
       bool settled = steep && (size <= real(2) * kEpsilon * scale ||
                                (size <= real(64) * kEpsilon * scale && size >= last));
+      // So many steps and no more: what the ray has come to counts where it runs down through the surface.
+      bool spent = NEWTON_STEPS > 0 && steps > NEWTON_STEPS;
+      settled = NEWTON_STEPS > 0 ? spent && slope < real(0) : settled;
       if (settled && point.inside && t >= real(-4) * kEpsilon * scale) {
         hit.t = max(t, real(0));
         hit.point = point;
         hit.found = true;
+        hit.steps = steps - 1;
         break;
       }
-      search = settled || !steep || steps == kNewtonSteps;
+      search = NEWTON_STEPS > 0 ? spent : settled || !steep || steps == kNewtonSteps;
       t += dt;
       last = size;
     } else if (phase == kBracket) {

@@ -11,6 +11,8 @@
 // that lenses without them pay nothing.
 // MAY_CROSS: front and back of some lens may cross. HURRIED: a search that does not settle at once is given up as
 // kStatusUnsettled, so that the code for it is not compiled; such rays are few and traced again.
+// NEWTON_STEPS: a ray goes on from a surface after so many steps of the search for it, wherever they have led; 0: as
+// many as it takes.
 
 #ifdef __cplusplus
 
@@ -26,6 +28,7 @@
 #define LENS_USED true
 #define MAY_CROSS true
 #define HURRIED false
+#define NEWTON_STEPS 0
 
 #else
 
@@ -42,6 +45,9 @@
 #endif
 #ifndef HURRIED
 #define HURRIED false
+#endif
+#ifndef NEWTON_STEPS
+#define NEWTON_STEPS 0
 #endif
 #define KINDS_PARAM uint kinds,
 #define KINDS(k) k,

@@ -28,6 +28,8 @@ struct LensPath {
   vec3 direction_object;  // in air, beyond the lens
   real t_back;            // pupil to back surface
   real t_front;           // back to front surface
+  int steps_back;         // of the searches for the surfaces (SurfaceHit)
+  int steps_front;
   real gamma_back;
   real gamma_front;
   SurfacePoint back;
@@ -80,6 +82,8 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   path.direction = direction;
   path.direction_object = direction;
   path.front_hit = start;
+  path.steps_back = -1;
+  path.steps_front = -1;
   real index = lens.glass.x;
   real semi_diameter = lens.glass.z;
   SurfaceHit back = intersect_surface(TABLE KINDS(BACK_KINDS) lens.back, start, direction, semi_diameter);
@@ -93,6 +97,7 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   }
   path.back = back.point;
   path.t_back = back.t;
+  path.steps_back = back.steps;
   path.back_hit = p;
   bool transmitted = false;
   path.gamma_back =
@@ -117,6 +122,7 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   }
   path.front = front.point;
   path.t_front = front.t;
+  path.steps_front = front.steps;
   path.front_hit = vec3(exit.x, exit.y, exit.z - lens.glass.y);
   path.gamma_front = refract_direction(path.direction_glass, front.point.gradient, index, real(1),
                                        path.direction_object, transmitted);

@@ -6,6 +6,8 @@ layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;
 #define BACK_KINDS (kSurfaceKinds & 0xffffu)
 #define FRONT_KINDS ((kSurfaceKinds >> 16) & 0x7fffu)
 #define MAY_CROSS ((kSurfaceKinds >> 31) != 0u)
+layout(constant_id = 1) const uint kLensIterations = 0u;
+#define NEWTON_STEPS int(kLensIterations)
 #include "lenses/gpu/optics.h"
 
 layout(local_size_x = 64) in;

@@ -78,9 +78,13 @@ class Tradeoff {
     for (const render::Rung& rung : config_.rungs) {
       jobs_.push_back({.rung = rung, .config = frame_config(rung)});
     }
-    for (Job& job : jobs_) {
-      say(std::string(job.rung.name), static_cast<int>(result_.pictures.size()), static_cast<int>(jobs_.size()));
-      look_at(job);
+    const int all = static_cast<int>(jobs_.size());
+    for (auto job = jobs_.begin(); job != jobs_.end();) {
+      say(std::string(job->rung.name), static_cast<int>(result_.pictures.size()), all);
+      job = can_draw(*job) ? job + 1 : jobs_.erase(job);
+    }
+    if (jobs_.empty()) {
+      throw render::vk::DeviceError("no setting can be drawn: " + result_.report.left_out.front());
     }
     // All take turns, so that what else the machine does meets all of them alike.
     for (int round = 0; round < config_.rounds; ++round) {
@@ -116,6 +120,9 @@ class Tradeoff {
     report.pixels_per_degree = pixels_per_degree_;
     report.reference_samples = config_.reference_samples;
     report.accuracy = config_.accuracy;
+    for (const render::ViewSetup& view : setup_.views) {
+      report.iterations += render::iteration_histogram(view, setup_.lenses, setup_.size[0], setup_.size[1]);
+    }
     report.width = layout().picture_width();
     report.height = layout().height;
   }
@@ -161,6 +168,16 @@ class Tradeoff {
     const auto progress = [this](int done, int of) { say("reference", done, of); };
     result_.reference = compose_display(layout(), renderer_.render(setup_.lenses, setup_.views, config, progress));
     store.keep(key, result_.reference);
+  }
+
+  bool can_draw(Job& job) {
+    try {
+      look_at(job);
+      return true;
+    } catch (const render::vk::DeviceError& error) {
+      result_.report.left_out.push_back(std::string(job.rung.name) + ": " + error.what());
+      return false;
+    }
   }
 
   // The picture and its errors; compiled before, so that a slow frame need not be drawn again for its time.

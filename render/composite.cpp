@@ -23,7 +23,7 @@ constexpr double kFadeShare = 0.25;  // of the fovea's angle
 constexpr double kLeastFade_deg = 1.0;
 // What a blur may reach across the end of the fovea's layer: the half pupil of 1.75 mm times 10 D is a degree.
 constexpr double kBlurReach_deg = 1.0;
-constexpr double kWorthwhile = 0.9;  // of the picture: a larger fovea is no saving
+constexpr double kWorthwhile = 0.9;  // of the picture's pixels: more in both layers are no saving
 
 glm::dvec3 gaze_in_picture(const ViewSetup& view) {
   return glm::inverse(glm::normalize(view.view.head_from_view.orientation)) * glm::normalize(view.view.gaze);
@@ -172,10 +172,13 @@ CompositePlan plan_composite(const FrameConfig& config, const std::vector<ViewSe
   double resolution = config.accuracy.resolution;
   if (foveation.rate > 1 && foveation.fovea_deg > 0.0) {
     plan.fovea = fovea_layer(config, views);
-    if (plan.fovea && double(plan.fovea->extent.x) * plan.fovea->extent.y >= kWorthwhile * size.x * size.y) {
-      plan.fovea.reset();
+    const double fovea =
+        plan.fovea ? double(plan.fovea->extent.x) * plan.fovea->extent.y / (double(size.x) * size.y) : 0.0;
+    const double rate = foveation.rate;
+    if (fovea + 1.0 / (rate * rate) < kWorthwhile) {
+      resolution /= rate;
     } else {
-      resolution /= foveation.rate;
+      plan.fovea.reset();
     }
   }
   plan.whole = {layer_config(config, size, resolution), views, std::vector<glm::ivec2>(views.size(), {0, 0}), size};

@@ -47,6 +47,12 @@ constexpr std::array kLadder{
          .what = "three steps of Newton's method for each surface, as the paper takes",
          .accuracy = {.lens = {.iterations = 3}}},
 
+    // Fewer pixels than are shown.
+    resolution_rung("half-resolution", 0.5, "half the pixels along each side, enlarged"),
+    resolution_rung("three-quarter-resolution", 0.75, "three quarters of the pixels along each side, enlarged"),
+    foveated_rung("foveated-5-4", 5.0, 4, "a quarter of the pixels along each side beyond 5 degrees from the gaze"),
+    foveated_rung("foveated-10-2", 10.0, 2, "half the pixels along each side beyond 10 degrees from the gaze"),
+
     // Modes and distributed rays.
     Rung{.name = "pinhole",
          .subject = "mode",
@@ -58,11 +64,6 @@ constexpr std::array kLadder{
          .what = "a map of power instead of a picture (the paper's VIS)",
          .accuracy = {},
          .mode = Mode::power},
-
-    resolution_rung("half-resolution", 0.5, "half the pixels along each side, enlarged"),
-    resolution_rung("three-quarter-resolution", 0.75, "three quarters of the pixels along each side, enlarged"),
-    foveated_rung("foveated-5-4", 5.0, 4, "a quarter of the pixels along each side beyond 5 degrees from the gaze"),
-    foveated_rung("foveated-10-2", 10.0, 2, "half the pixels along each side beyond 10 degrees from the gaze"),
 
     samples_rung("dof-1", 1),
     samples_rung("dof-4", 4),

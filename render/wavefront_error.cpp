@@ -3,27 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
+
+#include "render/lens_forms/view_direction.hpp"
 
 namespace render {
 namespace {
 
 namespace f64 = lenses::f64;
-
-// The direction from the pupil, in primary axes, of a pixel's middle; as shaders/pixel.glsl has it.
-glm::dvec3 direction_of(const ViewSetup& view, const glm::dvec2& share) {
-  const tracking::FieldOfView& fov = view.view.fov;
-  const glm::dvec3 ahead(glm::mix(-fov.tan_left, fov.tan_right, share.x), glm::mix(fov.tan_up, -fov.tan_down, share.y),
-                         -1.0);
-  const glm::dvec3 direction = glm::normalize(glm::normalize(view.view.head_from_view.orientation) * ahead);
-  if (!view.virtual_image) {
-    return direction;
-  }
-  const glm::dvec3 point =
-      glm::dvec3(0.0, 0.0, view.virtual_image->origin_behind_pupil) + view.virtual_image->distance * direction;
-  const glm::dmat3 turn = f64::eye_turn(static_cast<int>(view.viewing), glm::normalize(view.view.gaze), direction);
-  return glm::normalize(point - f64::turned_pupil(turn, view.eye.pupil.y));
-}
 
 double percentile_99(std::vector<double>& values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
@@ -42,7 +28,7 @@ WavefrontReference::WavefrontReference(const lenses::LensModel& lenses, const Vi
   const glm::dvec3 gaze = glm::normalize(view.view.gaze);
   for (int y = step / 2; y < height; y += step) {
     for (int x = step / 2; x < width; x += step) {
-      const glm::dvec3 direction = direction_of(view, {(x + 0.5) / width, (y + 0.5) / height});
+      const glm::dvec3 direction = view_direction(view, {(x + 0.5) / width, (y + 0.5) / height});
       const glm::dmat3 turn = f64::eye_turn(static_cast<int>(view.viewing), gaze, direction);
       const f64::SightLine line =
           f64::trace_sight_line(table, lens, view.eye, turn, direction, glm::dvec2(0.0), glm::dvec2(0.0));

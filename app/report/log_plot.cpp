@@ -163,7 +163,8 @@ class PlotDrawing {
     }
     for (const LogPlot::Point& p : plot_.points) {
       const DrawnPoint at = place(p);
-      out_.lines.push_back({{x_at(p.x_low), at.y}, {x_at(p.x_high), at.y}, 1.5, p.colour});
+      bars_.emplace_back(DrawnPoint{x_at(p.x_low), at.y}, DrawnPoint{x_at(p.x_high), at.y});
+      out_.lines.push_back({bars_.back().first, bars_.back().second, 1.5, p.colour});
       out_.dots.push_back({at, 6.0, p.colour});
       if (p.marked) {
         out_.dots.push_back({at, 11.0, kInk, true});
@@ -220,9 +221,11 @@ class PlotDrawing {
       return std::nullopt;
     }
     c.cost = distance;
-    constexpr double kUnderTheLine = 60.0, kUnderALeader = 40.0, kOverAnother = 50.0;  // px of distance
+    constexpr double kUnderTheLine = 60.0, kUnderALeader = 40.0, kOverAnother = 50.0,
+                     kUnderABar = 30.0;  // px of distance
     const auto through = [&](const auto& segment) { return crosses(segment.first, segment.second, c.box); };
     c.cost += std::ranges::any_of(line_, through) ? kUnderTheLine : 0.0;
+    c.cost += std::ranges::any_of(bars_, through) ? kUnderABar : 0.0;
     c.cost += std::ranges::any_of(leaders_, through) ? kUnderALeader : 0.0;
     const DrawnPoint end = leader_end(c.box, at);
     const Rect own{static_cast<int>(at.x) - 14, static_cast<int>(at.y) - 14, 28, 28};
@@ -270,7 +273,7 @@ class PlotDrawing {
   int top_ = 0;
   double x_low_ = 0.0, x_high_ = 1.0, y_low_ = 0.0, y_high_ = 1.0;  // logarithms
   std::vector<Rect> taken_;
-  std::vector<std::pair<DrawnPoint, DrawnPoint>> line_, leaders_;
+  std::vector<std::pair<DrawnPoint, DrawnPoint>> line_, leaders_, bars_;
 };
 
 }  // namespace

@@ -102,7 +102,21 @@ std::vector<std::string> advice(const TradeoffReport& report) {
   if (const auto need = dof_need(report.rows, report.target_rmse); need && report.target_rmse > 0.0) {
     out.push_back(dof_sentence(report, *need));
   }
+  if (const std::string sentence = iteration_sentence(report.iterations); !sentence.empty()) {
+    out.push_back(sentence);
+  }
   return out;
+}
+
+std::string iteration_sentence(const render::IterationHistogram& iterations) {
+  if (iterations.iterated() == 0) {
+    return "";
+  }
+  std::string out = format("Of %zu surfaces met by Newton's method", iterations.iterated());
+  for (std::size_t n = 1; n <= 3; ++n) {
+    out += format("%s %.4g %% settle within %zu", n == 1 ? "" : ",", 100.0 * iterations.settled_within(n), n);
+  }
+  return out + " steps; the paper takes three for all.";
 }
 
 std::string tradeoff_table(const TradeoffReport& report) {
@@ -129,6 +143,9 @@ std::string tradeoff_table(const TradeoffReport& report) {
                (row.setting + (row.efficient ? " *" : "")).c_str(), row.samples, row.ms.median, row.ms.min, row.ms.max);
     out += cell(row.rmse, "%.5f", 9) + cell(row.psnr_db, "%.2f", 9) + cell(row.flip, "%.4f", 7) +
            cell(row.power_error_D_p99, "%.3g", 13) + cell(row.astigmatism_error_D_p99, "%.3g", 13) + "\n";
+  }
+  for (const std::string& reason : report.left_out) {
+    out += "left out: " + reason + "\n";
   }
   out += "* efficient: nothing measured here is both as fast and as good\n\n";
   for (const std::string& sentence : advice(report)) {

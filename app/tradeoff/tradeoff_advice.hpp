@@ -12,6 +12,9 @@ namespace app {
 // line gives and costs, and what mode dof needs for the same error.
 [[nodiscard]] std::vector<std::string> advice(const TradeoffReport& report);
 
+// How many steps of Newton's method the surfaces took; empty where none was iterated.
+[[nodiscard]] std::string iteration_sentence(const render::IterationHistogram& iterations);
+
 // For a terminal, the advice under it.
 [[nodiscard]] std::string tradeoff_table(const TradeoffReport& report);
 

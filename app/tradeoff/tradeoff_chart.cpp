@@ -111,31 +111,27 @@ LogPlot picture_plot(const TradeoffReport& report, const std::vector<LogPlot::Le
   return plot;
 }
 
-// Only settings that find the wavefront in another way than `standard` does: the others have its error.
+// Of the settings that are about the lens, and the paper's modes; the others have the wavefront of `standard`.
 LogPlot wavefront_plot(const TradeoffReport& report, const std::vector<LogPlot::Legend>& subjects) {
   LogPlot plot;
   plot.title = "What accuracy costs: the wavefront's error against double precision";
-  plot.note = "the larger of power and astigmatism; settings with the same as standard are left out";
+  plot.note = "the larger of power and astigmatism, of the ways to trace the lens";
   plot.x_label = "time of a frame, ms";
   plot.y_label = "99th percentile, D";
   plot.height = 400;
-  const TradeoffRow* standard = find_row(report.rows, "standard");
-  const auto error = [](const TradeoffRow& row) {
-    return std::max(row.power_error_D_p99.value_or(0.0), row.astigmatism_error_D_p99.value_or(0.0));
-  };
+  std::vector<std::size_t> pictures;
   for (const TradeoffRow& row : report.rows) {
-    const bool same = standard != nullptr && &row != standard &&
-                      std::abs(std::log(error(row) / std::max(error(*standard), 1e-300))) < 0.1;
-    if (error(row) > 0.0 && row.mode != "dof" && (!same || row.setting == "vis")) {
-      plot.points.push_back(point_of(row, error(row), subjects));
+    const double error = std::max(row.power_error_D_p99.value_or(0.0), row.astigmatism_error_D_p99.value_or(0.0));
+    const bool about_it = row.subject.starts_with("lens") || row.setting == "standard" || row.setting == "vis";
+    if (error > 0.0 && about_it) {
+      if (row.rmse) {
+        pictures.push_back(plot.points.size());
+      }
+      plot.points.push_back(point_of(row, error, subjects));
     }
   }
-  std::vector<std::size_t> order(plot.points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  std::ranges::sort(order, {}, [&](std::size_t i) { return plot.points[i].x; });
-  for (const std::size_t i : order) {
+  std::ranges::sort(pictures, {}, [&](std::size_t i) { return plot.points[i].x; });
+  for (const std::size_t i : pictures) {
     if (plot.joined.empty() || plot.points[i].y < plot.points[plot.joined.back()].y) {
       plot.joined.push_back(i);
     }
@@ -148,7 +144,7 @@ LogPlot wavefront_plot(const TradeoffReport& report, const std::vector<LogPlot::
 Drawing tradeoff_chart(const TradeoffReport& report) {
   const auto subjects = subjects_of(report.rows);
   std::vector<LogPlot> plots{picture_plot(report, subjects), wavefront_plot(report, subjects)};
-  if (plots[1].points.size() < 2) {
+  if (plots[1].joined.size() < 2 && plots[1].points.size() < 3) {
     plots.pop_back();  // nothing to compare
   }
   return draw_log_plots(plots);

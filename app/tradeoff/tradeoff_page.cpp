@@ -37,6 +37,30 @@ std::string table(const TradeoffReport& report) {
   return out + "</table>\n<p>Shaded: efficient, nothing measured here is both as fast and as good.</p>\n";
 }
 
+std::string histogram(const render::IterationHistogram& iterations) {
+  if (iterations.iterated() == 0) {
+    return "";
+  }
+  std::string out =
+      "<h2>Steps of Newton's method for a surface</h2>\n<p>Chief rays of every pixel, both surfaces, to single "
+      "precision; planes and spheres take none.</p>\n<table><tr><th>steps</th><th>surfaces</th><th></th></tr>\n";
+  const auto line = [&](const std::string& name, std::size_t count) {
+    if (count > 0) {
+      const double share = static_cast<double>(count) / static_cast<double>(iterations.iterated());
+      out += "<tr>" + cell(name) + cell(std::to_string(count)) +
+             format(
+                 "<td style=\"text-align: left\"><div style=\"background: #0072b2; height: 1em; width: "
+                 "%.2fem\"></div></td></tr>\n",
+                 30.0 * share);
+    }
+  };
+  for (std::size_t n = 0; n < iterations.surfaces.size(); ++n) {
+    line(std::to_string(n), iterations.surfaces[n]);
+  }
+  line("searched", iterations.searched);
+  return out + "</table>\n";
+}
+
 std::string figure(const std::string& file, const std::string& caption) {
   return "<figure><img src=\"" + html_escaped(file) + "\" alt=\"" + html_escaped(caption) + "\"><figcaption>" +
          html_escaped(caption) + "</figcaption></figure>\n";
@@ -98,7 +122,10 @@ std::string tradeoff_page(const TradeoffReport& report) {
       "and astigmatism compare each pixel's wavefront at the pupil with the double-precision tracer's for the same "
       "direction and distance: 99 of 100 pixels differ by no more.</p>\n",
       report.reference_samples, report.pixels_per_degree);
-  body += table(report) + "<h2>Pictures</h2>\n" + pictures(report) +
+  for (const std::string& reason : report.left_out) {
+    body += "<p>Left out: " + html_escaped(reason) + "</p>\n";
+  }
+  body += table(report) + histogram(report.iterations) + "<h2>Pictures</h2>\n" + pictures(report) +
           "<p>Every number: <a href=\"tradeoff.csv\">tradeoff.csv</a>.</p>\n";
   return html_page("What accuracy costs in time", body);
 }

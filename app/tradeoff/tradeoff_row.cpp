@@ -132,6 +132,7 @@ std::string tradeoff_json(const TradeoffReport& report) {
     }
     j["rows"].push_back(std::move(r));
   }
+  j["left_out"] = report.left_out;
   Json& dof = j["dof_for_target"];
   if (const auto need = dof_need(report.rows, report.target_rmse)) {
     dof = {{"rmse", report.target_rmse},
@@ -141,6 +142,9 @@ std::string tradeoff_json(const TradeoffReport& report) {
                      : need->at_most ? "at_most"
                                      : "about"}};
   }
+  j["lens_iterations"] = {{"surfaces_after_steps", report.iterations.surfaces},
+                          {"searched", report.iterations.searched},
+                          {"closed_form", report.iterations.closed_form}};
   j["advice"] = advice(report);
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/bench/bench_row.hpp"
+#include "render/lens_forms/iteration_histogram.hpp"
 
 namespace app {
 
@@ -29,10 +30,12 @@ struct TradeoffReport {
   int width = 0, height = 0;  // of the whole picture
   double fov_deg = 0.0, pixels_per_degree = 0.0;
   int reference_samples = 0;
-  bool reference_kept = false;  // found in the cache
-  double target_rmse = 0.0;     // that the samples of mode dof are counted for
-  std::string accuracy;         // the setting that the advice begins with
+  bool reference_kept = false;            // found in the cache
+  double target_rmse = 0.0;               // that the samples of mode dof are counted for
+  std::string accuracy;                   // the setting that the advice begins with
+  render::IterationHistogram iterations;  // of every pixel's chief ray in single precision
   std::vector<TradeoffRow> rows;
+  std::vector<std::string> left_out;  // settings that the device cannot draw, with its reason
 };
 
 // Sets `efficient`: rows with a picture that no other row beats in time without being worse, or in error without being

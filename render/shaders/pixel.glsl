@@ -117,17 +117,18 @@ PixelRay aim_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 moment
   return unseen_ray(trace_sight_line(view.lens, view.eye, turn, direction, pupil_offset, momentum));
 }
 
-// Completes a ray that is no rim: the layers along it, front to back; what blends lets the rest through. Depth, normal
-// and material are those of the layer that the eye sees most of: the first with more than half of the light in front of
-// its back. known: `met` and `hit` say already what the first layer is.
-void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool met, Hit hit) {
-  if (ray.status == kStatusOk) {
-    ray.transfer = sight_line_transfer(view.lens, ray.line);
-  }
-  Beam beam;
-  if (HAS(kFeatureTexture)) {
-    beam = pixel_beam(view, ray);
-  }
+struct Sight {
+  vec3 radiance;
+  float depth;  // as PixelRay's
+  vec3 normal;
+  uint material;
+};
+
+// The layers along a ray, front to back; what blends lets the rest through. Depth, normal and material are those of the
+// layer that the eye sees most of: the first with more than half of the light in front of its back. known: `met` and
+// `hit` say already what the first layer is.
+Sight look_along(SceneRay beyond, Beam beam, bool known, bool met, Hit hit) {
+  Sight sight;
   vec3 radiance = vec3(0.0);
   float through = 1.0;
   float before = 0.0;  // m from where the ray left for the scene
@@ -160,11 +161,11 @@ void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool me
     through -= share;
     if (!decided && (last || through <= 0.5)) {
       decided = true;
-      ray.depth = depth;
-      ray.normal = surface.normal;
-      ray.material = met ? hit.material : 0xffffu;
+      sight.depth = depth;
+      sight.normal = surface.normal;
+      sight.material = met ? hit.material : 0xffffu;
       if (layer > 0) {
-        ray.material ^= (first_material + 1u) << 5;  // the edge of a pane is an edge
+        sight.material ^= (first_material + 1u) << 5;  // the edge of a pane is an edge
       }
     }
     if (last || through < 1.0 / 512.0) {
@@ -175,12 +176,32 @@ void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool me
     beyond.origin += on * beyond.direction;
     before += on;
   }
-  ray.radiance = radiance;
-  if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
-    ray.radiance *= view.tint.rgb;
+  sight.radiance = radiance;
+  return sight;
+}
+
+// What the spectacles' tint lets through. Half floats end at 65504; nothing may leave as an infinity.
+vec3 seen_radiance(ViewData view, int status, vec3 radiance) {
+  if (view.lens.glass.w != 0.0 && status == kStatusOk) {
+    radiance *= view.tint.rgb;
   }
-  // Half floats end at 65504; nothing may leave as an infinity.
-  ray.radiance = clamp(ray.radiance, vec3(0.0), vec3(65000.0));
+  return clamp(radiance, vec3(0.0), vec3(65000.0));
+}
+
+// Completes a ray that is no rim.
+void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool met, Hit hit) {
+  if (ray.status == kStatusOk) {
+    ray.transfer = sight_line_transfer(view.lens, ray.line);
+  }
+  Beam beam;
+  if (HAS(kFeatureTexture)) {
+    beam = pixel_beam(view, ray);
+  }
+  Sight sight = look_along(beyond, beam, known, met, hit);
+  ray.radiance = seen_radiance(view, ray.status, sight.radiance);
+  ray.depth = sight.depth;
+  ray.normal = sight.normal;
+  ray.material = sight.material;
 }
 
 PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {

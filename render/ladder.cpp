@@ -6,6 +6,18 @@
 namespace render {
 namespace {
 
+constexpr Rung resolution_rung(std::string_view name, double resolution, std::string_view what) {
+  Accuracy accuracy;
+  accuracy.resolution = resolution;
+  return {.name = name, .subject = "resolution", .what = what, .accuracy = accuracy};
+}
+
+constexpr Rung foveated_rung(std::string_view name, double fovea_deg, int rate, std::string_view what) {
+  Accuracy accuracy;
+  accuracy.foveation = {.fovea_deg = fovea_deg, .rate = rate};
+  return {.name = name, .subject = "foveation", .what = what, .accuracy = accuracy};
+}
+
 constexpr Rung samples_rung(std::string_view name, int samples) {
   return {.name = name,
           .subject = "dof samples",
@@ -78,6 +90,12 @@ constexpr std::array kLadder{
          .subject = "lens field",
          .what = "256 x 256 lens rays over the view, kept while eye and lens stay, those between interpolated",
          .accuracy = {.lens = {.form = LensForm::field, .field_side = 256}}},
+
+    // Fewer pixels than are shown.
+    resolution_rung("half-resolution", 0.5, "half the pixels along each side, enlarged"),
+    resolution_rung("three-quarter-resolution", 0.75, "three quarters of the pixels along each side, enlarged"),
+    foveated_rung("foveated-5-4", 5.0, 4, "a quarter of the pixels along each side beyond 5 degrees from the gaze"),
+    foveated_rung("foveated-10-2", 10.0, 2, "half the pixels along each side beyond 10 degrees from the gaze"),
 
     // Modes and distributed rays.
     Rung{.name = "pinhole",

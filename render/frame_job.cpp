@@ -25,6 +25,11 @@ constexpr auto kBareFeatures =
 constexpr float kLargestBlur = 512.0F;  // px; beyond it nothing is left to see
 constexpr float kNoBlurDrawn = 1e9F;    // px, as a threshold
 
+// Of which 4 r^2 taps make r (shaders/gather.glsl).
+std::uint32_t blur_rings(int taps) {
+  return static_cast<std::uint32_t>(std::max(1.0, std::round(0.5 * std::sqrt(static_cast<double>(taps)))));
+}
+
 std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
   std::vector<gpu::ViewData> data;
   for (const ViewSetup& view : views) {
@@ -55,6 +60,11 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
     worn.push_back(lenses.lens[view.lens]);
   }
   variant_.surface_kinds = surface_kinds(worn);
+  for (const ViewSetup& view : views) {
+    const tracking::FieldOfView& fov = view.view.fov;
+    half_pupil_px_.push_back(
+        static_cast<float>(0.5 * view.eye.pupil.x * config.width / (fov.tan_left + fov.tan_right)));
+  }
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config);
@@ -152,10 +162,44 @@ void FrameJob::record_edges(vk::Commands& commands) {
 }
 
 void FrameJob::record_blur(vk::Commands& commands) {
-  commands.barrier();
-  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
-           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
+  const bool blurs = config_.mode == Mode::adof;
+  const BlurAccuracy& accuracy = config_.accuracy.blur;
+  const BlurVariant variant{.rings = blurs ? blur_rings(accuracy.taps) : 0U,
+                            .gaussian = accuracy.kernel == BlurKernel::gaussian,
+                            .rate = accuracy.rate,
+                            .encode = !config_.keep_radiance};
+  const vk::Buffer& blurred = config_.keep_radiance ? out_.radiance : out_.display;
+  // Views share the memory of what is known of their tiles.
+  for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+    commands.barrier();
+    if (blurs) {
+      find_layers(commands, variant);
+    }
+    dispatch_view(commands, kernels_.get(Stage::blur, variant),
+                  {&out_.pixels, &blurred, &out_.blur_levels, &out_.blur_reaches, &out_.blur_squares});
+    if (blurs) {
+      dispatch_list(commands, kernels_.get(Stage::blur_layers, variant),
+                    {&out_.pixels, &blurred, &out_.blur_reaches, &out_.list, &out_.blur_nearest}, out_.list);
+    }
+  }
   commands.timestamp("blur");
+}
+
+// Lists the tiles of a view in which a blur reaches across depth.
+void FrameJob::find_layers(vk::Commands& commands, const BlurVariant& variant) {
+  data_.limits.w = half_pupil_px_[static_cast<std::size_t>(data_.view.x)];
+  empty_list(commands, out_.list);
+  dispatch_squares(commands, kernels_.get(Stage::blur_tiles, variant),
+                   {&out_.pixels, &out_.blur_tiles, &out_.blur_levels, &out_.blur_nearest}, gpu::kBlurTile);
+  commands.barrier();
+  dispatch_squares(commands, kernels_.get(Stage::blur_reach, variant),
+                   {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.list}, gpu::kBlurTile);
+  commands.barrier();
+  if (variant.rate > 1) {
+    dispatch_squares(commands, kernels_.get(Stage::blur_squares, variant),
+                     {&out_.pixels, &out_.blur_squares, &out_.blur_levels, &out_.blur_reaches}, 2);
+    commands.barrier();
+  }
 }
 
 void FrameJob::record_encode(vk::Commands& commands) {

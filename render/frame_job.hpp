@@ -32,6 +32,7 @@ class FrameJob {
 
   void aim(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
+  void find_layers(vk::Commands& commands, const BlurVariant& variant);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);
@@ -49,6 +50,7 @@ class FrameJob {
   vk::Buffer table_, views_;
   TraceVariant variant_;
   gpu::FrameData data_{};
+  std::vector<float> half_pupil_px_;  // of each view: what the pupil's half spans at a dioptre, px
 };
 
 // Whether a frame of these settings has every pixel's wavefront in memory.

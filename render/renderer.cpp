@@ -21,6 +21,11 @@ std::size_t pixels_of(const FrameConfig& config) {
   return static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
 }
 
+std::size_t blur_tiles_of(const FrameConfig& config) {
+  const auto along = [](int pixels) { return static_cast<std::size_t>((pixels + gpu::kBlurTile - 1) / gpu::kBlurTile); };
+  return along(config.width) * along(config.height);
+}
+
 double rms_standard_error(const std::vector<glm::vec4>& sums, int samples) {
   double total = 0.0;
   const double n = samples;
@@ -55,7 +60,8 @@ struct Renderer::State {
     FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
                                        .wavefront = keeps_wavefront(config),
                                        .sums = config.mode == Mode::dof,
-                                       .hits = traversal != Traversal::per_ray});
+                                       .hits = traversal != Traversal::per_ray,
+                                       .blur_tiles = config.mode == Mode::adof ? blur_tiles_of(config) : 0});
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});

@@ -65,15 +65,19 @@ vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
       Square tap = square_at(at + ivec2(offset), level, base);
       offset = (offset - beside) * side;
       float w = tap.coverage * (1.0 - in_front(tap.nearness, here, offset));
+      float hidden = tap.coverage - w;
+      Square between = square_at(at + ivec2(round(beside + 0.5 * offset / side)), level, base);
+      hidden *= between.coverage * (1.0 - in_front(between.nearness, here, 0.5 * offset));
+      own += hidden * vec4(between.radiance, 1.0);
       float back = w * in_front(here, tap.nearness, offset);
       own += (w - back) * vec4(tap.radiance, 1.0);
-      uncovered += back;
+      uncovered += back + (w - back) * (1.0 / max(tap.coverage, 0.25) - 1.0);  // behind a square's nearest
       behind += back / (1.0 + kNearestFill * dot(offset, offset)) * vec4(tap.radiance, 1.0);
       disc = vec2(disc.x * turn.x - disc.y * turn.y, disc.x * turn.y + disc.y * turn.x);
     }
   }
-  vec3 filled = behind.a > 0.0 ? uncovered * behind.rgb / behind.a : vec3(0.0);
-  return (own.rgb + filled) / (own.a + uncovered);
+  uncovered = behind.a > 0.0 ? uncovered : 0.0;
+  return (own.rgb + uncovered * behind.rgb / max(behind.a, 1e-6)) / (own.a + uncovered);
 }
 
 vec3 small_beside(Tap centre, vec3 radiance, ivec2 p, int base) {

@@ -12,7 +12,7 @@
 
 namespace support {
 
-inline constexpr int kDefocusSize = 256;            // pixels a side
+inline constexpr int kDefocusSize = 192;  // pixels a side
 inline constexpr int kDefocusReferenceSamples = 4096;
 
 struct DefocusView {
@@ -30,18 +30,18 @@ struct DefocusView {
 };
 
 inline constexpr std::array kDefocusViews{
-    DefocusView{"text_near", "room", "presbyopia", 0, 62, "", "near_card", {1.5, 0}, 8, 0},
-    DefocusView{"text_far", "room", "emmetropia", -3.0, 35, "", "etdrs_chart", {0, 0.5}, 6, 0},
-    DefocusView{"clock_dial", "room", "astigmatism", 0, 35, "", "clock_dial", {0, 0}, 6, 0},
-    DefocusView{"progressive_rim", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "window", {-2, 1}, 10, 0, 12},
-    DefocusView{"progressive_corridor", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "screen", {2, 0}, 8, 0},
-    DefocusView{"blurred_before_sharp", "layers", "emmetropia", 0, 20, "", "far", {0, 0}, 5, 0},
-    DefocusView{"sharp_before_blurred", "layers", "emmetropia", 0, 20, "", "near", {0, 0}, 5, 0},
-    DefocusView{"both_blurred", "layers", "presbyopia", -1.5, 62, "", "far", {0, 0}, 4, 0},
-    DefocusView{"lamps", "lamps", "emmetropia", 0, 20, "", "near", {0, 0}, 4, 0},
-    DefocusView{"minus_lens", "room", "myopia", 0, 62, "myopia", "phone", {0, 0}, 14, 0},
-    DefocusView{"plus_lens", "room", "hyperopia", 0, 62, "hyperopia", "screen", {5, 6}, 10, 0},
-    DefocusView{"reading_room", "room", "presbyopia", -2.5, 62, "", "screen", {9, 12}, 18, 0},
+    DefocusView{"text_near", "room", "presbyopia", 0, 62, "", "near_card", {1.5, 0}, 6, 0},
+    DefocusView{"text_far", "room", "emmetropia", -3.0, 35, "", "etdrs_chart", {0, 0.5}, 4.5, 0},
+    DefocusView{"clock_dial", "room", "astigmatism", 0, 35, "", "clock_dial", {0, 0}, 4.5, 0},
+    DefocusView{"progressive_rim", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "window", {-2, 1}, 7.5, 0, 12},
+    DefocusView{"progressive_corridor", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "screen", {2, 0}, 6, 0},
+    DefocusView{"blurred_before_sharp", "layers", "emmetropia", 0, 20, "", "far", {0, 0}, 3.75, 0},
+    DefocusView{"sharp_before_blurred", "layers", "emmetropia", 0, 20, "", "near", {0, 0}, 3.75, 0},
+    DefocusView{"both_blurred", "layers", "presbyopia", -1.5, 62, "", "far", {0, 0}, 3, 0},
+    DefocusView{"lamps", "lamps", "emmetropia", 0, 20, "", "near", {0, 0}, 3, 0},
+    DefocusView{"minus_lens", "room", "myopia", 0, 62, "myopia", "phone", {0, 0}, 10.5, 0},
+    DefocusView{"plus_lens", "room", "hyperopia", 0, 62, "hyperopia", "near_card", {-1, 1.5}, 7.5, 0},
+    DefocusView{"reading_room", "room", "presbyopia", -2.5, 62, "", "screen", {9, 12}, 13.5, 0},
 };
 
 // The scenes above and their renderers, made when first asked for.

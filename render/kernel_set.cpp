@@ -7,6 +7,7 @@
 #include "render/frame_types.hpp"
 #include "shaders/beam_blocks.hpp"
 #include "shaders/beams.hpp"
+#include "shaders/between.hpp"
 #include "shaders/blur.hpp"
 #include "shaders/blur_layers.hpp"
 #include "shaders/blur_reach.hpp"
@@ -14,7 +15,7 @@
 #include "shaders/blur_tiles.hpp"
 #include "shaders/chief.hpp"
 #include "shaders/colour.hpp"
-#include "shaders/dof.hpp"
+#include "shaders/corners.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
 #include "shaders/find_edges.hpp"
@@ -22,6 +23,8 @@
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
+#include "shaders/rays_double.hpp"
+#include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
 #include "shaders/unsettled.hpp"
 
@@ -42,7 +45,7 @@ std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding>
 }
 
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
-enum class Constants { none, lanes_and_features, scene, chief, blur };
+enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 struct Recipe {
   const char* name;
@@ -55,9 +58,18 @@ Recipe recipe_of(Stage stage) {
   using enum Binding;
   switch (stage) {
     case Stage::rays:
-      return {"rays", shaders::rays, scene_and(3), Constants::scene};
+      return {"rays", shaders::rays, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
+    case Stage::rays_double:
+      return {"rays_double",
+              shaders::rays_double,
+              {texel_rgba32ui, uniform_buffer, storage_buffer, storage_buffer, storage_buffer, texel_rgba32f},
+              Constants::aim};
+    case Stage::corners:
+      return {"corners", shaders::corners, scene_and(1), Constants::scene};
+    case Stage::between:
+      return {"between", shaders::between, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::scene};
     case Stage::unsettled:
-      return {"unsettled", shaders::unsettled, scene_and(3), Constants::scene};
+      return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
     case Stage::tile:
       return {"tile",
               shaders::tile,
@@ -73,7 +85,7 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}), Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
     case Stage::find_edges:
@@ -86,7 +98,8 @@ Recipe recipe_of(Stage stage) {
     case Stage::edges:
       return {"edges", shaders::edges, scene_and(3), Constants::scene};
     case Stage::samples:
-      return {"samples", shaders::dof, scene_and(3), Constants::scene};
+      return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
+              Constants::samples};
     case Stage::blur:
       return {"blur",
               shaders::blur,
@@ -137,12 +150,22 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[1] = variant.scene_features;
     key[4] = variant.bare ? 1U : 0U;
     key[5] = variant.newton_steps;
-    key[6] = variant.keep_transfer ? 1U : 0U;
-    count = 7;
+    const bool passes_rays_on = stage == Stage::rays || stage == Stage::between || stage == Stage::unsettled;
+    const bool keeps = variant.keep_transfer && !variant.sampled;
+    key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
+    key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
+    count = 8;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
     key[3] = variant.keep_wavefront ? 1U : 0U;
+  }
+  if (recipe.constants == Constants::aim || recipe.constants == Constants::samples) {
+    key[8] = (recipe.constants == Constants::aim ? variant.sampled : variant.hits_known) ? 1U : 0U;
+    count = 9;
+  }
+  if (recipe.constants == Constants::samples) {
+    key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
   return get(stage, key, count);
 }

@@ -12,6 +12,9 @@ namespace render {
 
 enum class Stage : std::uint32_t {
   rays,
+  rays_double,
+  corners,
+  between,
   unsettled,
   tile,
   ray_query,
@@ -38,9 +41,11 @@ struct TraceVariant {
   std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
-  bool bare = false;  // one light, no shadow rays
+  bool bare = false;               // one light, no shadow rays
   std::uint32_t newton_steps = 0;  // LensAccuracy::iterations
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
+  bool sampled = false;            // rays are samples of distributed rays
+  bool hits_known = false;         // what rays meet is found by a kernel of its own
 };
 
 // How the kernels of approximate defocus are specialised (shaders/gather.glsl).
@@ -63,7 +68,7 @@ class KernelSet {
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
-  using Key = std::array<std::uint32_t, 8>;  // the constants by id, at the end the stage
+  using Key = std::array<std::uint32_t, 10>;  // the constants by id, at the end the stage
 
   const vk::Kernel& get(Stage stage, Key key, std::size_t constants);
 

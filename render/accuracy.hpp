@@ -28,7 +28,7 @@ enum class BlurKernel {
 
 struct BlurAccuracy {
   BlurKernel kernel = BlurKernel::disc;
-  int taps = 256;  // the most of a gathered blur, about one a pixel below; counted as 4 r^2, r whole
+  int taps = 256;  // about the most of a gathered blur; fewer where it has fewer pixels
   int rate = 2;    // pixels between gathered ones where the minor semi-axis is 4 px or more; 1: every pixel
 };
 

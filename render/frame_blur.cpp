@@ -1,21 +1,9 @@
 // The stages of approximate defocus.
 #include "render/frame_blur.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "render/frame_job.hpp"
 
 namespace render {
-namespace {
-
-// Of which 4 r^2 taps make r (shaders/gather.glsl).
-std::uint32_t blur_rings(int taps) {
-  return static_cast<std::uint32_t>(std::max(1.0, std::round(0.5 * std::sqrt(static_cast<double>(taps)))));
-}
-
-}  // namespace
-
 std::size_t blur_tiles(int width, int height) {
   const auto along = [](int pixels) {
     return static_cast<std::size_t>((pixels + gpu::kBlurTile - 1) / gpu::kBlurTile);
@@ -35,7 +23,7 @@ std::vector<float> half_pupils_px(const std::vector<ViewSetup>& views, int width
 void FrameJob::record_blur(vk::Commands& commands) {
   const bool blurs = config_.mode == Mode::adof;
   const BlurAccuracy& accuracy = config_.accuracy.blur;
-  const BlurVariant variant{.rings = blurs ? blur_rings(accuracy.taps) : 0U,
+  const BlurVariant variant{.taps = blurs ? static_cast<std::uint32_t>(accuracy.taps) : 0U,
                             .gaussian = accuracy.kernel == BlurKernel::gaussian,
                             .rate = accuracy.rate,
                             .encode = !config_.keep_radiance};

@@ -171,7 +171,7 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
 }
 
 const vk::Kernel& KernelSet::get(Stage stage, const BlurVariant& variant) {
-  return get(stage, {variant.rings, variant.gaussian ? 1U : 0U, variant.encode ? 1U : 0U,
+  return get(stage, {variant.taps, variant.gaussian ? 1U : 0U, variant.encode ? 1U : 0U,
                      static_cast<std::uint32_t>(variant.rate)}, 4);
 }
 

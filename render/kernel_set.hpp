@@ -50,7 +50,7 @@ struct TraceVariant {
 
 // How the kernels of approximate defocus are specialised (shaders/gather.glsl).
 struct BlurVariant {
-  std::uint32_t rings = 0;  // the most of a gathered blur's taps; 0: nothing is blurred
+  std::uint32_t taps = 0;  // about the most of a gathered blur; 0: nothing is blurred
   bool gaussian = false;
   int rate = 1;         // BlurAccuracy::rate
   bool encode = false;  // straight to the display's bytes

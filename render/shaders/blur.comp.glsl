@@ -62,7 +62,7 @@ void main() {
   int base = frame.view.x * size.x * size.y;
   Tap centre = tap_at(base + p.y * size.x + p.x);
   vec3 mean = centre.radiance;
-  if (kMostRings != 0) {
+  if (kTaps != 0) {
     ivec2 tile = p / kBlurTile;
     if (uintBitsToFloat(texelFetch(reaches, tile.y * tile_count().x + tile.x).x) >= 0.0) {
       return;  // has layers

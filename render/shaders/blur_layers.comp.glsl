@@ -49,31 +49,33 @@ vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
   float minor = centre.ellipse.x + centre.ellipse.z - reach;
   int level = minor >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
-  int rings = rings_of(kPi * reach * max(minor, 1.0) / (side * side), kMostRings);
-  vec3 s = shrunk(centre.ellipse, (2.0 * side * side - 1.0) / 12.0) / side;
+  float step = max(1.0, floor(sqrt(kPi * reach * max(minor, 1.0) / float(kTaps)) / side));
+  float cell = side * step;
+  vec3 s = shrunk(centre.ellipse, (side * side - 1.0 + cell * cell) / 12.0) / cell;
   ivec2 at = p >> level;
   vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;
+  Rows rows = rows_of(s, beside / step);
+  ivec2 range = row_range(rows);
   vec4 own = vec4(centre.radiance, 1.0) * 1e-3;
   vec4 behind = vec4(0.0);
   float uncovered = 0.0;
-  for (int ring = 0; ring < rings; ++ring) {
-    vec2 disc = ring_radius(ring, rings) * ring_start(ring);
-    float angle = 2.0 * kPi / float(ring_points(ring));
-    vec2 turn = vec2(cos(angle), sin(angle));
-    for (int k = 0; k < ring_points(ring); ++k) {
-      vec2 offset = round(beside + vec2(s.x * disc.x + s.y * disc.y, s.y * disc.x + s.z * disc.y));
-      Square tap = square_at(at + ivec2(offset), level, base);
-      offset = (offset - beside) * side;
-      float w = tap.coverage * (1.0 - in_front(tap.nearness, here, offset));
-      float hidden = tap.coverage - w;
-      Square between = square_at(at + ivec2(round(beside + 0.5 * offset / side)), level, base);
-      hidden *= between.coverage * (1.0 - in_front(between.nearness, here, 0.5 * offset));
-      own += hidden * vec4(between.radiance, 1.0);
+  for (int row = range.x; row <= range.y; ++row) {
+    vec2 span = row_span(rows, row);
+    ivec2 cells = cells_between(span.x, span.y);
+    for (int k = cells.x; k <= cells.y; ++k) {
+      ivec2 q = int(step) * ivec2(k, row);
+      vec2 offset = (vec2(q) - beside) * side;
+      Square tap = square_at(at + q, level, base);
+      float whole = cell_weight(rows, span, row, k) * tap.coverage;
+      float w = whole * (1.0 - in_front(tap.nearness, here, offset));
+      // Where something stands in front, what lies half as far stands in.
+      Square between = square_at(at + ivec2(round(0.5 * vec2(q))), level, base);
+      float between_seen = between.coverage * (1.0 - in_front(between.nearness, here, 0.5 * offset));
+      own += (whole - w) * between_seen * vec4(between.radiance, 1.0);
       float back = w * in_front(here, tap.nearness, offset);
       own += (w - back) * vec4(tap.radiance, 1.0);
       uncovered += back + (w - back) * (1.0 / max(tap.coverage, 0.25) - 1.0);  // behind a square's nearest
       behind += back / (1.0 + kNearestFill * dot(offset, offset)) * vec4(tap.radiance, 1.0);
-      disc = vec2(disc.x * turn.x - disc.y * turn.y, disc.x * turn.y + disc.y * turn.x);
     }
   }
   uncovered = behind.a > 0.0 ? uncovered : 0.0;
@@ -119,7 +121,7 @@ vec4 front(float here, float reach, ivec2 p, int base) {
   int level = reach >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
   float radius = (reach + 1.0) / side;
-  float step = max(1.0, ceil(sqrt(kPi) * radius / float(2 * kMostRings)));
+  float step = max(1.0, ceil(sqrt(kPi / float(2 * kTaps)) * radius));
   float area = side * side * step * step;  // px of a tap
   ivec2 at = p >> level;
   vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;

@@ -34,7 +34,7 @@ void main() {
     // Interpolating with weights of 3/4 at half a pixel and 1/4 at one and a half.
     sum = disc_sum(ellipse, area, 2.0 * vec2(square) + 1.0, level_of(area, minor, 1), 0.75, base);
   }
-  vec3 mean = sum.rgb / max(sum.a, 1.0);
+  vec3 mean = sum.rgb / max(sum.a, 1e-6);
   squares[square.y * width + square.x] =
       uvec2(packHalf2x16(mean.rg), packHalf2x16(vec2(mean.b, sum.a > 0.0 ? 1.0 : 0.0)));
 }

@@ -10,32 +10,31 @@ vec4 level_tap(ivec2 q, int level, int base) {
   return vec4(unpackHalf2x16(p.x), unpackHalf2x16(p.y));
 }
 
-// The coarsest squares that still give the most taps, none wider than the minor semi-axis.
+// The finest squares that make do with the taps, none wider than the minor semi-axis.
 int level_of(float area, float minor, int least) {
-  float squares = 0.5 * log2(area / float(4 * kMostRings * kMostRings));
-  return clamp(int(ceil(min(squares, log2(max(minor, 1.0))))), least, 3);
+  float squares = 0.5 * log2(area / float(kTaps));
+  return clamp(int(round(min(squares, log2(max(minor, 1.0))))), least, 3);
 }
 
 // Around `at` (px), over squares of the level; variance: px^2, what else widens the picture of a point.
-// a: how many taps it is the sum of.
+// a: how many squares it is the sum of.
 vec4 disc_sum(vec3 ellipse, float area, vec2 at, int level, float variance, int base) {
   float side = float(1 << level);
-  int rings = rings_of(area / (side * side), kMostRings);
-  // A square's own width and the rounding of a tap to one.
-  vec3 s = shrunk(ellipse, variance + (2.0 * side * side - 1.0) / 12.0) / side;
-  ivec2 centre = ivec2(floor(at / side));
-  vec2 beside = at / side - vec2(centre) - 0.5;
+  float step = max(1.0, floor(0.5 * sqrt(area / float(kTaps)) / side));  // squares from tap to tap, where no level is left
+  float cell = side * step;
+  // The width of a square, and that of a cell as rows of cells cover the ellipse.
+  vec3 s = shrunk(ellipse, variance + (side * side - 1.0 + cell * cell) / 12.0) / cell;
+  ivec2 middle = ivec2(floor(at / side));
+  Rows rows = rows_of(s, (at / side - vec2(middle) - 0.5) / step);
   ivec2 last = (frame.size.xy - 1) >> level;
+  ivec2 range = row_range(rows);
   vec4 sum = vec4(0.0);
-  for (int ring = 0; ring < rings; ++ring) {
-    vec2 disc = ring_radius(ring, rings) * ring_start(ring);
-    float angle = 2.0 * kPi / float(ring_points(ring));
-    vec2 turn = vec2(cos(angle), sin(angle));
-    for (int k = 0; k < ring_points(ring); ++k) {
-      vec2 offset = vec2(s.x * disc.x + s.y * disc.y, s.y * disc.x + s.z * disc.y);
-      vec4 tap = level_tap(clamp(centre + ivec2(round(beside + offset)), ivec2(0), last), level, base);
-      sum += tap.w * vec4(tap.rgb, 1.0);
-      disc = vec2(disc.x * turn.x - disc.y * turn.y, disc.x * turn.y + disc.y * turn.x);
+  for (int row = range.x; row <= range.y; ++row) {
+    vec2 span = row_span(rows, row);
+    ivec2 cells = cells_between(span.x, span.y);
+    for (int k = cells.x; k <= cells.y; ++k) {
+      vec4 tap = level_tap(clamp(middle + int(step) * ivec2(k, row), ivec2(0), last), level, base);
+      sum += cell_weight(rows, span, row, k) * tap.w * vec4(tap.rgb, 1.0);
     }
   }
   return sum;

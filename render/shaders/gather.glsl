@@ -5,7 +5,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Frame { FrameData frame; };
-layout(constant_id = 0) const int kMostRings = 0;  // of a gathered blur's taps (ring_points); 0: nothing is blurred
+layout(constant_id = 0) const int kTaps = 0;  // about the most of a gathered blur; 0: nothing is blurred
 layout(constant_id = 1) const uint kGaussian = 0u;
 layout(constant_id = 2) const uint kEncode = 0u;  // 1: to the display's bytes, 0: to linear radiance
 layout(constant_id = 3) const int kRate = 1;  // px between gathered ones where the minor semi-axis is 4 px or more
@@ -71,31 +71,53 @@ vec3 shrunk(vec3 s, float variance) {
   return slope * s + vec3(level, 0.0, level);
 }
 
-// Rings of a round pattern: ring j of n has 8 j + 4 points, so that all (2n)^2 stand for equal parts of the kernel, and
-// no ring favours a direction.
-int ring_points(int ring) { return 8 * ring + 4; }
+// An ellipse over a grid of cells, row by row: each row's cells count by how much of them the ellipse covers, or by a
+// Gaussian of its second moments. In cells; `centre` from the middle of cell (0, 0).
+struct Rows {
+  vec2 centre;
+  float top;    // the ellipse's extent upwards
+  float lean;   // how far a row's middle moves with each row
+  float width;  // half of the middle row
+};
 
-// The radius at which a ring's points have the second moment of the ring they stand for.
-float ring_radius(int ring, int rings) {
-  float inner = float(ring * ring) / float(rings * rings);
-  float outer = float((ring + 1) * (ring + 1)) / float(rings * rings);
+Rows rows_of(vec3 s, vec2 centre) {
+  float top = max(sqrt(s.y * s.y + s.z * s.z), 0.02);
+  float det = max(s.x * s.z - s.y * s.y, 0.0);
+  return Rows(centre, top, s.y * (s.x + s.z) / (top * top), max(det / top, 0.02));
+}
+
+// First and last row, or cell of a row.
+ivec2 cells_between(float low, float high) { return ivec2(floor(low + 0.5), ceil(high - 0.5)); }
+
+ivec2 row_range(Rows rows) {
+  float top = kernel_reach() * rows.top;
+  return cells_between(rows.centre.y - top, rows.centre.y + top);
+}
+
+// The integral of the unit circle's half width.
+float half_widths(float y) {
+  float u = clamp(y, -1.0, 1.0);
+  return 0.5 * (u * sqrt(1.0 - u * u) + asin(u));
+}
+
+// From where to where a row's part of the ellipse goes: its mean over the row's height.
+vec2 row_span(Rows rows, int row) {
+  float y = float(row) - rows.centre.y;
+  float middle = rows.centre.x + rows.lean * y;
+  float part = kernel_reach();
   if (kGaussian == 0u) {
-    return sqrt(0.5 * (inner + outer));
+    part = rows.top * (half_widths((y + 0.5) / rows.top) - half_widths((y - 0.5) / rows.top));
   }
-  // The integral of -log(1 - u): the squared radius, in 2 sigma^2, inside which the part u of a Gaussian lies.
-  float up_to_inner = inner + (1.0 - inner) * log(1.0 - inner);
-  float up_to_outer = outer + (1.0 - outer) * log(max(1.0 - outer, 1e-6));
-  return sqrt(0.5 * (up_to_outer - up_to_inner) / (outer - inner));
+  return middle + rows.width * vec2(-part, part);
 }
 
-// Each ring begins at another angle, by the golden section.
-vec2 ring_start(int ring) {
-  float angle = 2.399963229728653 * float(ring);
-  return vec2(cos(angle), sin(angle));
+float cell_weight(Rows rows, vec2 span, int row, int cell) {
+  if (kGaussian != 0u) {
+    vec2 inner = vec2((float(cell) - 0.5 * (span.x + span.y)) / rows.width, (float(row) - rows.centre.y) / rows.top);
+    return exp(-2.0 * dot(inner, inner));
+  }
+  return max(min(float(cell) + 0.5, span.y) - max(float(cell) - 0.5, span.x), 0.0);
 }
-
-// About one tap a pixel of the ellipse, within the most.
-int rings_of(float area, int most) { return clamp(int(ceil(0.5 * sqrt(area))), 1, most); }
 
 // The nine weights of a blur within the pixel, with the ellipse's own second moments, S S^T / 4.
 float small_weight(vec3 s, ivec2 o) {

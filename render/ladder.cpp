@@ -27,6 +27,11 @@ constexpr Rung samples_rung(std::string_view name, int samples) {
           .samples = samples};
 }
 
+constexpr Rung blur_rung(std::string_view name, std::string_view subject, std::string_view what,
+                         const BlurAccuracy& blur) {
+  return {.name = name, .subject = subject, .what = what, .accuracy = {.blur = blur}, .mode = Mode::adof};
+}
+
 constexpr std::array kLadder{
     Rung{.name = "standard",
          .subject = "standard",
@@ -90,6 +95,17 @@ constexpr std::array kLadder{
          .subject = "lens field",
          .what = "256 x 256 lens rays over the view, kept while eye and lens stay, those between interpolated",
          .accuracy = {.lens = {.form = LensForm::field, .field_side = 256}}},
+
+    // The blur.
+    blur_rung("blur-4-taps", "blur taps", "at most 4 taps for a blur", {.taps = 4}),
+    blur_rung("blur-16-taps", "blur taps", "at most 16 taps for a blur", {.taps = 16}),
+    blur_rung("blur-64-taps", "blur taps", "at most 64 taps for a blur", {.taps = 64}),
+    blur_rung("blur-1024-taps", "blur taps", "at most 1024 taps for a blur", {.taps = 1024}),
+    blur_rung("blur-full-rate", "blur rate", "wide blurs gathered for every pixel, not every second", {.rate = 1}),
+    blur_rung("blur-finest", "blur rate", "at most 1024 taps for a blur, gathered for every pixel",
+              {.taps = 1024, .rate = 1}),
+    blur_rung("blur-gaussian", "blur kernel", "a Gaussian of the disc's second moments (the paper's ADOF)",
+              {.kernel = BlurKernel::gaussian}),
 
     // Fewer pixels than are shown.
     resolution_rung("half-resolution", 0.5, "half the pixels along each side, enlarged"),

@@ -40,6 +40,7 @@ struct FrameBuffers {
   Size size;
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, list, doubtful, blocks, radiance,
       display;
+  int samples = 0;  // in sums
 };
 
 // View `index` of a frame of config's size.

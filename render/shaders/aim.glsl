@@ -2,7 +2,7 @@
 // distributed rays (paper, section 6.2), which takes another point of the pixel and of the pupil.
 #include "render/shaders/sample_pattern.h"
 
-layout(constant_id = 7) const uint kSampled = 0u;  // 1: distributed rays
+layout(constant_id = 8) const uint kSampled = 0u;  // 1: distributed rays
 
 layout(binding = 13) uniform samplerBuffer kept_wavefronts;  // of the chief rays; read where each has its own focus
 

@@ -9,7 +9,7 @@
 #include "render/shaders/pixel.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 7) const uint kHitsKnown = 1u;
+layout(constant_id = 8) const uint kHitsKnown = 1u;
 layout(std430, binding = 10) buffer Sums { vec4 sums[]; };  // r, g, b; w: luminance, of odd samples less
 layout(std430, binding = 11) writeonly buffer Blurred { uvec2 blurred[]; };
 layout(binding = 12) uniform usamplerBuffer found_hits;

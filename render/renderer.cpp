@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "render/composite.hpp"
@@ -103,9 +104,12 @@ struct Renderer::State {
   }
 
   // Distributed rays until the samples or the target error are reached; results go into `frame`.
-  void take_samples(FrameJob& job, const FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
+  void take_samples(FrameJob& job, FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
                     const Progress& progress) {
-    frame.samples = 0;
+    if (config.samples_before != 0 && config.samples_before != out.samples) {
+      throw std::invalid_argument("the frame before took other samples");
+    }
+    frame.samples = config.samples_before;
     while (frame.samples < config.samples) {
       const int batch = std::min(kSamplesASubmission, config.samples - frame.samples);
       vk::Commands commands(device);
@@ -114,6 +118,7 @@ struct Renderer::State {
       }
       add_times(frame.stages, device.run(commands));
       frame.samples += batch;
+      out.samples = frame.samples;
       if (progress) {
         progress(frame.samples, config.samples);
       }
@@ -158,6 +163,9 @@ RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vecto
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);
+  }
+  if (config.samples_before != 0) {
+    throw std::invalid_argument("views that do not fit together cannot go on with their samples");
   }
   // One after the other. A map's range spans them all, so it is found before any is coloured.
   RenderedFrame all;

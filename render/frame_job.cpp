@@ -47,10 +47,6 @@ bool keeps_transfer(const LensAccuracy& lens) {
   return lens.form != LensForm::exact || lens.in_double || lens.spacing > 1;
 }
 
-bool serves_samples(const LensAccuracy& lens) {
-  return lens.form != LensForm::field && (lens.form != LensForm::exact || lens.spacing == 1);
-}
-
 FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views, Traversal traversal) {
   const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
   const bool transfers = keeps_transfer(config.accuracy.lens);
@@ -78,6 +74,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
       table_(filled_buffer(device, lenses::to_float(lenses.table))),
       views_(filled_buffer(device, view_data(lenses, views))),
       corners_(corner_grid(config.accuracy.lens, config.width, config.height)) {
+  config.accuracy.lens.validate();
   std::vector<lenses::f64::LensData> worn;
   for (const ViewSetup& view : views) {
     worn.push_back(lenses.lens[view.lens]);
@@ -130,6 +127,13 @@ void FrameJob::set_range(const MapRange& range) {
 void FrameJob::record_views(vk::Commands& commands, const vk::Buffer& from) {
   commands.copy(from, views_, views_.bytes());
   commands.barrier();
+}
+
+void FrameJob::record_double_views(vk::Commands& commands, const vk::Buffer& from) {
+  if (double_views_) {
+    commands.copy(from, *double_views_, double_views_->bytes());
+    commands.barrier();
+  }
 }
 
 void FrameJob::record_picture(vk::Commands& commands) {

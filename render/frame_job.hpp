@@ -25,6 +25,7 @@ class FrameJob {
 
   // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
   void record_views(vk::Commands& commands, const vk::Buffer& from);
+  void record_double_views(vk::Commands& commands, const vk::Buffer& from);  // double_views(); where they are used
   // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
   void record_picture(vk::Commands& commands);
 
@@ -76,10 +77,6 @@ class FrameJob {
 // Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
 // to know the lens's form.
 [[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
-
-// Whether a lens of this accuracy has rays for the samples of mode dof: one that is interpolated between chief rays has
-// none.
-[[nodiscard]] bool serves_samples(const LensAccuracy& lens);
 
 // What a frame of these views needs. traversal: not automatic.
 [[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views,

@@ -80,11 +80,15 @@ class RungFrame {
             int size, render::Traversal traversal = render::Traversal::tile)
       : device_(shared.device),
         config_(config_of(lens, size)),
-        traversal_(traversal),
-        out_(device_, render::buffers_for(config_, 1, traversal)),
-        job_(device_, shared.scene, shared.kernels, out_, forms_.in_form(pair.model, lens), {view}, config_, traversal),
+        out_(device_, render::buffers_for(config_, {view}, traversal)),
         commands_(device_) {
-    job_.record_trace(commands_);
+    // The second frame of a running picture is the one to look at: a field is known by then.
+    const auto& model = forms_.in_form(pair.model, lens);
+    render::vk::Commands first(device_);
+    render::FrameJob(device_, shared.scene, shared.kernels, out_, model, {view}, config_, traversal).record_trace(first);
+    device_.run(first);
+    render::FrameJob(device_, shared.scene, shared.kernels, out_, model, {view}, config_, traversal)
+        .record_trace(commands_);
   }
 
   std::vector<render::vk::StageTime> run() { return device_.run(commands_); }
@@ -141,10 +145,8 @@ class RungFrame {
 
   render::vk::Device& device_;
   render::FrameConfig config_;
-  render::Traversal traversal_;
   render::LensFormCache forms_;
   render::FrameBuffers out_;
-  render::FrameJob job_;
   render::vk::Commands commands_;
 };
 

@@ -203,7 +203,7 @@ void FrameJob::aim_between_corners(vk::Commands& commands) {
     commands.barrier();
   }
   dispatch_view(commands, kernels_.get(Stage::between, variant_),
-                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.transfers, &out_.corners}));
+                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.corners, &out_.transfers}));
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {

@@ -99,7 +99,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (corners_.rays() > 0) {
     std::vector<std::byte> key;
     if (config.accuracy.lens.form == LensForm::field) {
-      key = corner_key(corners_, view_data(lenses, views), lenses::to_float(lenses.table));
+      key = corner_key(config.accuracy.lens, corners_, view_data(lenses, views), lenses::to_float(lenses.table));
     }
     trace_corners_ = key.empty() || key != out_.corners_of;
     out_.corners_of = std::move(key);

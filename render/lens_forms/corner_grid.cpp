@@ -26,9 +26,10 @@ CornerGrid corner_grid(const LensAccuracy& lens, int width, int height) {
   return {};
 }
 
-std::vector<std::byte> corner_key(const CornerGrid& grid, const std::vector<gpu::ViewData>& views,
-                                  const std::vector<glm::vec4>& table) {
+std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& grid,
+                                  const std::vector<gpu::ViewData>& views, const std::vector<glm::vec4>& table) {
   std::vector<std::byte> key;
+  append(key, lens.iterations);
   append(key, grid.spacing);
   append(key, grid.count);
   for (const gpu::ViewData& view : views) {

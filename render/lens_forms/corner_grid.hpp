@@ -25,7 +25,8 @@ struct CornerGrid {
 [[nodiscard]] CornerGrid corner_grid(const LensAccuracy& lens, int width, int height);
 
 // All that the rays at a field's corners depend on: two frames with the same key have the same field.
-[[nodiscard]] std::vector<std::byte> corner_key(const CornerGrid& grid, const std::vector<gpu::ViewData>& views,
+[[nodiscard]] std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& grid,
+                                                const std::vector<gpu::ViewData>& views,
                                                 const std::vector<glm::vec4>& table);
 
 }  // namespace render

@@ -148,7 +148,8 @@ TEST_F(LensRungs, KeepRimsAndSegmentsWhereTheyAre) {
       // On the rim itself, a pixel in a hundred; of a mesh, whose edge is a polygon, as many.
       EXPECT_LE(errors.status_differs, static_cast<std::size_t>(kSize * kSize / 100));
       EXPECT_LE(errors.direction.p99, 2e-3);
-      EXPECT_LE(errors.power.p99, 0.1);
+      // Facets err by the surface's curvature: most on a contact lens, whose front has 48 D.
+      EXPECT_LE(errors.power.p99, name == "lens-mesh-10k" ? 0.4 : 0.1);
     }
   }
 }

@@ -70,8 +70,8 @@ class FrameJob {
 // Whether samples or a map's range come between the picture's trace and its encoding.
 [[nodiscard]] bool encodes_later(const FrameConfig& config);
 
-// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
-// them where each pixel has a focus of its own.
+// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go
+// before them where each pixel has a focus of its own.
 [[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
 
 // Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has

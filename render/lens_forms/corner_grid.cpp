@@ -36,8 +36,8 @@ std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& gr
     // Not where the eye stands in the world, what it accommodates to, or how much light the lens lets through.
     append(key, view.lens);
     append(key, view.eye.pupil.y);
-    for (const glm::vec4& part : {view.picture_x, view.picture_y, view.picture_z, view.tangents, view.gaze,
-                                  view.virtual_image}) {
+    for (const glm::vec4& part :
+         {view.picture_x, view.picture_y, view.picture_z, view.tangents, view.gaze, view.virtual_image}) {
       append(key, part);
     }
   }

@@ -1,6 +1,6 @@
 // Corners of squares of a picture, whose rays through the lens stand for those of the pixels between them
-// (shaders/corners.comp.glsl, shaders/between.comp.glsl): on a grid of pixels traced anew for every frame, or as a field
-// over the view that is kept while eye, lens and picture stay as they are (Kakimoto et al. 2007, 2010).
+// (shaders/corners.comp.glsl, shaders/between.comp.glsl): on a grid of pixels traced anew for every frame, or as a
+// field over the view that is kept while eye, lens and picture stay as they are (Kakimoto et al. 2007, 2010).
 #pragma once
 
 #include <cstddef>

@@ -32,8 +32,7 @@ const LensModel& LensFormCache::in_form(const LensModel& lenses, const LensAccur
     return lenses;
   }
   Entry& entry = known_[{accuracy.form, is_mesh ? accuracy.facets : 0}];
-  if (entry.source.table != lenses.table ||
-      !std::ranges::equal(entry.source.lens, lenses.lens, same_surfaces)) {
+  if (entry.source.table != lenses.table || !std::ranges::equal(entry.source.lens, lenses.lens, same_surfaces)) {
     entry.converted = is_mesh ? lenses::as_mesh(lenses, accuracy.facets) : lenses::as_bezier_patches(lenses);
     entry.source = lenses;
   }

@@ -37,7 +37,9 @@ Worn worn(const std::string& name, const Lens& lens, render::Viewing viewing = r
   return w;
 }
 
-Lens progressive() { return lenses::read_lens(VERGENCE_TEST_DATA "/progressive_add200_right.json"); }
+Lens progressive() {
+  return lenses::read_lens(VERGENCE_TEST_DATA "/progressive_add200_right.json");
+}
 
 Lens of_file(const std::string& name) {
   return lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/" + name + ".json").lens[0];
@@ -80,7 +82,8 @@ class LensRungs : public testing::Test {
 
   // By name, of the rungs that are about the lens; `few`: one of each kind, as every lens compiles its own kernels.
   static std::map<std::string, RungErrors> all(const Worn& w, bool few = false) {
-    constexpr std::array kFew{"standard", "lens-1-iteration", "lens-grid-8", "lens-double", "lens-mesh-10k", "lens-field-64"};
+    constexpr std::array kFew{"standard",    "lens-1-iteration", "lens-grid-8",
+                              "lens-double", "lens-mesh-10k",    "lens-field-64"};
     const support::ReferencePicture reference(w.pair, w.view, kSize);
     std::map<std::string, RungErrors> found;
     for (const render::Rung& rung : render::ladder()) {

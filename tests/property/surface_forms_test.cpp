@@ -1,6 +1,6 @@
-// A lens as triangle meshes and as Bezier patches beside the same lens exactly, on the CPU: the orders at which a mesh's
-// errors fall, patches that are the surface itself, no form that leaves the rails in the hard cases, and how many steps
-// Newton's method takes.
+// A lens as triangle meshes and as Bezier patches beside the same lens exactly, on the CPU: the orders at which a
+// mesh's errors fall, patches that are the surface itself, no form that leaves the rails in the hard cases, and how
+// many steps Newton's method takes.
 #include "lenses/surface_forms.hpp"
 
 #include <gtest/gtest.h>

@@ -85,7 +85,8 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}), Constants::chief};
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}),
+              Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
     case Stage::find_edges:

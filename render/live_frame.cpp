@@ -6,6 +6,8 @@
 #include "render/frame_buffers.hpp"
 #include "render/frame_job.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/double_view.hpp"
+#include "render/lens_forms/lens_form_cache.hpp"
 #include "shaders/swap_red_blue.hpp"
 
 namespace render {
@@ -58,14 +60,12 @@ tracking::FieldOfView with_guard(const tracking::FieldOfView& fov, int width, in
 
 struct LiveFrame::State {
   State(const RendererParts& parts, const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
-        const LiveConfig& wanted, std::size_t view_count)
+        const LiveConfig& wanted)
       : device(parts.device),
         config(wanted),
         frame(traced(wanted)),
-        buffers(parts.device, {.pixels = pixels_of(frame) * view_count,
-                               .wavefront = keeps_wavefront(frame, views),
-                               .sums = frame.mode == Mode::dof,
-                               .hits = parts.traversal != Traversal::per_ray}),
+        buffers(parts.device, buffers_for(frame, views, parts.traversal)),
+        double_upload(parts.device, sizeof(glm::dvec4) * double_views({}, lenses).size(), vk::Memory::upload),
         upload(parts.device, sizeof(gpu::ViewData) * static_cast<std::size_t>(gpu::kMostViews), vk::Memory::upload),
         divider(parts.device, sizeof(std::uint32_t) * static_cast<std::size_t>(kDividerPixels * wanted.frame.height),
                 vk::Memory::device),
@@ -77,14 +77,20 @@ struct LiveFrame::State {
   }
 
   void write_views(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
-    upload.write(view_data(lenses, guarded(views, config)));
+    const lenses::LensModel& worn = forms.in_form(lenses, frame.accuracy.lens);
+    upload.write(view_data(worn, guarded(views, config)));
+    if (frame.accuracy.lens.in_double) {
+      double_upload.write(double_views(guarded(views, config), worn));
+    }
   }
 
   void record_picture(const RendererParts& parts, const lenses::LensModel& lenses,
                       const std::vector<ViewSetup>& views) {
-    FrameJob job(device, parts.scene, parts.kernels, buffers, lenses, views, frame, parts.traversal);
+    const lenses::LensModel& worn = forms.in_form(lenses, frame.accuracy.lens);
+    FrameJob job(device, parts.scene, parts.kernels, buffers, worn, views, frame, parts.traversal);
     job.set_range(frame.range.value_or(MapRange{}));
     job.record_views(picture, upload);
+    job.record_double_views(picture, double_upload);
     job.record_picture(picture);
     if (frame.mode == Mode::dof) {
       for (int i = 0; i < frame.samples; ++i) {
@@ -151,8 +157,9 @@ struct LiveFrame::State {
   vk::Device& device;
   LiveConfig config;
   FrameConfig frame;
+  LensFormCache forms;
   FrameBuffers buffers;
-  vk::Buffer upload, divider;
+  vk::Buffer double_upload, upload, divider;
   std::optional<vk::Kernel> swap;
   vk::Commands picture;
   std::vector<std::vector<VkImage>> images;
@@ -167,7 +174,7 @@ LiveFrame::LiveFrame(Renderer& renderer, const lenses::LensModel& lenses, const 
     throw std::invalid_argument("a running picture needs a view for each eye of each pair, and images for each eye");
   }
   const FrameConfig frame = traced(config);
-  state_ = std::make_unique<State>(renderer.parts(lenses, views, frame), lenses, views, config, views.size());
+  state_ = std::make_unique<State>(renderer.parts(lenses, views, frame), lenses, views, config);
   state_->images = images;
   if (config.blue_first) {
     state_->record_swap();

@@ -201,7 +201,8 @@ void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSe
 RendererParts Renderer::parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                               const FrameConfig& config) {
   State& s = *state_;
-  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, lenses, views, config)};
+  const lenses::LensModel& worn = s.forms.in_form(lenses, config.accuracy.lens);
+  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, worn, views, config)};
 }
 
 std::size_t Renderer::kernels_made() const {

@@ -63,7 +63,7 @@ struct LiveFrame::State {
         config(wanted),
         frame(traced(wanted)),
         buffers(parts.device, {.pixels = pixels_of(frame) * view_count,
-                               .wavefront = keeps_wavefront(frame),
+                               .wavefront = keeps_wavefront(frame, views),
                                .sums = frame.mode == Mode::dof,
                                .hits = parts.traversal != Traversal::per_ray}),
         upload(parts.device, sizeof(gpu::ViewData) * static_cast<std::size_t>(gpu::kMostViews), vk::Memory::upload),

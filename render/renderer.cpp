@@ -7,28 +7,21 @@
 #include "render/frame_job.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/lens_form_cache.hpp"
 #include "render/map_range.hpp"
+#include "render/sample_error.hpp"
+#include "render/shaders/sample_pattern.h"
 #include "render/traversal_choice.hpp"
 #include "render/vk/commands.hpp"
 
 namespace render {
 namespace {
 
-constexpr int kSamplesASubmission = 8;      // dof
-constexpr int kFewestSamplesToStopOn = 16;  // below, the error estimate itself is too rough
+constexpr int kSamplesASubmission = 8;  // dof
+static_assert(gpu::kEvenSamples % kSamplesASubmission == 0);
 
 std::size_t pixels_of(const FrameConfig& config) {
   return static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
-}
-
-double rms_standard_error(const std::vector<glm::vec4>& sums, int samples) {
-  double total = 0.0;
-  const double n = samples;
-  for (const glm::vec4& s : sums) {
-    const double mean = (0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z) / n;
-    total += std::max(0.0, s.w / n - mean * mean) / n;
-  }
-  return std::sqrt(total / static_cast<double>(std::max<std::size_t>(sums.size(), 1)));
 }
 
 void add_times(std::vector<vk::StageTime>& sum, const std::vector<vk::StageTime>& more) {
@@ -49,13 +42,11 @@ struct Renderer::State {
       : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
-  RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+  RenderedFrame render_together(const lenses::LensModel& worn, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
+    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
-    FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
-                                       .wavefront = keeps_wavefront(config),
-                                       .sums = config.mode == Mode::dof,
-                                       .hits = traversal != Traversal::per_ray});
+    FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
@@ -90,16 +81,17 @@ struct Renderer::State {
       for (int i = 0; i < batch; ++i) {
         job.record_sample(commands, frame.samples + i);
       }
-      commands.timestamp("samples");
       add_times(frame.stages, device.run(commands));
       frame.samples += batch;
-      frame.error_estimate = rms_standard_error(out.sums.read<glm::vec4>(out.size.pixels), frame.samples);
       if (progress) {
         progress(frame.samples, config.samples);
       }
-      if (config.target_error && frame.samples >= kFewestSamplesToStopOn &&
-          frame.error_estimate <= *config.target_error) {
-        break;
+      const bool even = frame.samples % gpu::kEvenSamples == 0;  // between, the estimate is worth less
+      if ((config.target_error && even) || frame.samples == config.samples) {
+        frame.error_estimate = rms_standard_error(out.sums.read<glm::vec4>(out.size.pixels), frame.samples);
+        if (config.target_error && frame.error_estimate <= *config.target_error) {
+          break;
+        }
       }
     }
   }
@@ -116,6 +108,7 @@ struct Renderer::State {
   TraversalChoice choice;  // before the scene: it refuses what the device cannot
   SceneBuffers buffers;
   KernelSet kernels;
+  LensFormCache forms;
   std::unique_ptr<FrameBuffers> frame;
 };
 
@@ -126,7 +119,10 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                const FrameConfig& config, const Progress& progress) {
-  const std::size_t bytes_a_view = pixels_of(config) * (keeps_wavefront(config) ? kWavefrontBytes : kPixelBytes);
+  const std::size_t bytes_a_pixel = keeps_transfer(config.accuracy.lens) ? kTransferBytes
+                                    : keeps_wavefront(config, views)     ? kWavefrontBytes
+                                                                         : kPixelBytes;
+  const std::size_t bytes_a_view = pixels_of(config) * bytes_a_pixel;
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);

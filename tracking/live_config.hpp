@@ -2,7 +2,11 @@
 // may set. SI units; the ranges that make sense are the reader's.
 #pragma once
 
+#include <numbers>
+
 namespace tracking {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 
 // 1 Euro filter (Casiez, Roussel and Vogel 2012): a low pass whose cutoff is rest_cutoff + speed_slope * speed.
 struct OneEuroConfig {
@@ -14,21 +18,21 @@ struct OneEuroConfig {
 
 // Saccades by a velocity threshold that adapts to the tracker's noise (I-VT with Engbert and Kliegl's robust scale).
 struct SaccadeConfig {
-  double least_speed = 0.5236;  // rad/s (30 deg/s): no slower movement is a saccade
-  double noise_multiple = 6.0;  // of the standard deviation of an axis's speed
-  double start_noise = 0.35;    // rad/s: that deviation until it has been measured
-  double window = 0.02;         // s over which a speed is taken
-  double longest = 0.15;        // s; what lasts longer is no saccade
+  double least_speed = 30.0 * kDegree;  // rad/s: no slower movement is a saccade
+  double noise_multiple = 6.0;          // of the standard deviation of an axis's speed
+  double start_noise = 20.0 * kDegree;  // rad/s: that deviation until it has been measured
+  double window = 0.02;                 // s over which a speed is taken
+  double longest = 0.15;                // s; what lasts longer is no saccade
   bool operator==(const SaccadeConfig&) const = default;
 };
 
 struct GazeConfig {
   // The target: what is looked at, for accommodation and for what follows the gaze on the picture.
-  OneEuroConfig target{.rest_cutoff = 1.5, .speed_slope = 6.0, .speed_cutoff = 1.0};
+  OneEuroConfig target{.rest_cutoff = 1.5, .speed_slope = 0.1 / kDegree, .speed_cutoff = 1.0};
   // The pupil's position: whatever moves it shakes the picture behind a strong lens, so it rests far more.
-  OneEuroConfig pupil{.rest_cutoff = 0.2, .speed_slope = 5.0, .speed_cutoff = 0.4};
+  OneEuroConfig pupil{.rest_cutoff = 0.2, .speed_slope = 0.08 / kDegree, .speed_cutoff = 0.4};
   SaccadeConfig saccade;
-  double noise = 0.0052;              // rad rms of one eye's direction, about 0.3 deg: how far vergence is trusted
+  double noise = 0.3 * kDegree;       // rad rms of one eye's direction: how far vergence is trusted
   double hold = 0.5;                  // s that the last gaze is held through a blink or a loss
   double return_time_constant = 0.2;  // s, from there to the head's own direction
   double depth_dwell = 0.1;           // s that another depth must last to be looked at without a saccade

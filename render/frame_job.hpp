@@ -1,12 +1,14 @@
 // One frame in the making: its settings on the device, and the recording of each stage.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lenses/lens_model.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/corner_grid.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/commands.hpp"
 
@@ -21,6 +23,11 @@ class FrameJob {
 
   void set_range(const MapRange& range);
 
+  // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
+  void record_views(vk::Commands& commands, const vk::Buffer& from);
+  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
+  void record_picture(vk::Commands& commands);
+
   void record_trace(vk::Commands& commands);
   void record_edges(vk::Commands& commands);
   void record_blur(vk::Commands& commands);
@@ -31,6 +38,7 @@ class FrameJob {
   using Buffers = std::vector<const vk::Buffer*>;
 
   void aim(vk::Commands& commands);
+  void aim_between_corners(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
@@ -47,12 +55,34 @@ class FrameJob {
   Traversal traversal_;
   const vk::Buffer* accelerated_ = nullptr;  // where rays are traced by ray queries
   vk::Buffer table_, views_;
+  std::optional<vk::Buffer> double_table_, double_views_;  // where the lens is traced in double precision
+  CornerGrid corners_;
+  bool trace_corners_ = false;  // of each frame anew; a field's may be known
   TraceVariant variant_;
   gpu::FrameData data_{};
 };
 
+// Views as the kernels take them, kMostViews of them.
+[[nodiscard]] std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses,
+                                                   const std::vector<ViewSetup>& views);
+
+// Whether samples or a map's range come between the picture's trace and its encoding.
+[[nodiscard]] bool encodes_later(const FrameConfig& config);
+
 // Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
 // them where each pixel has a focus of its own.
 [[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
+
+// Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
+// to know the lens's form.
+[[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
+
+// Whether a lens of this accuracy has rays for the samples of mode dof: one that is interpolated between chief rays has
+// none.
+[[nodiscard]] bool serves_samples(const LensAccuracy& lens);
+
+// What a frame of these views needs. traversal: not automatic.
+[[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views,
+                                             Traversal traversal);
 
 }  // namespace render

@@ -7,6 +7,7 @@
 #include "render/frame_job.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/lens_form_cache.hpp"
 #include "render/map_range.hpp"
 #include "render/sample_error.hpp"
 #include "render/shaders/sample_pattern.h"
@@ -41,40 +42,25 @@ struct Renderer::State {
       : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
-  RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+  RenderedFrame render_together(const lenses::LensModel& worn, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
+    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
-    FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
-                                       .wavefront = keeps_wavefront(config, views),
-                                       .sums = config.mode == Mode::dof,
-                                       .hits = traversal != Traversal::per_ray || config.mode == Mode::dof});
+    FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
-    if (config.mode != Mode::dof || keeps_wavefront(config, views)) {
-      job.record_trace(commands);
-    }
-    if (config.mode == Mode::adof || config.mode == Mode::pinhole) {
-      if (!config.bare) {
-        job.record_edges(commands);
-      }
-      job.record_blur(commands);
-    }
-    const bool encode_later = config.mode == Mode::dof || (is_map(config.mode) && !config.range);
-    const bool blur_encodes = !is_map(config.mode) && config.mode != Mode::dof && !config.keep_radiance;
-    if (!encode_later && !blur_encodes) {
-      job.record_encode(commands);
-    }
+    job.record_picture(commands);
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
       take_samples(job, out, config, result, progress);
-    } else if (encode_later) {
+    } else if (encodes_later(config)) {
       result.range = map_range_of(config.mode, out.wavefronts.read<glm::vec4>(2 * out.size.pixels));
       job.set_range(result.range);
     }
-    if (encode_later) {
+    if (encodes_later(config)) {
       vk::Commands last(device);
       job.record_encode(last);
       add_times(result.stages, device.run(last));
@@ -122,6 +108,7 @@ struct Renderer::State {
   TraversalChoice choice;  // before the scene: it refuses what the device cannot
   SceneBuffers buffers;
   KernelSet kernels;
+  LensFormCache forms;
   std::unique_ptr<FrameBuffers> frame;
 };
 
@@ -132,7 +119,10 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                const FrameConfig& config, const Progress& progress) {
-  const std::size_t bytes_a_view = pixels_of(config) * (keeps_wavefront(config, views) ? kWavefrontBytes : kPixelBytes);
+  const std::size_t bytes_a_pixel = keeps_transfer(config.accuracy.lens) ? kTransferBytes
+                                    : keeps_wavefront(config, views)     ? kWavefrontBytes
+                                                                         : kPixelBytes;
+  const std::size_t bytes_a_view = pixels_of(config) * bytes_a_pixel;
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);
@@ -166,6 +156,12 @@ void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSe
   small.width = small.height = 8;
   small.samples = 1;
   (void)render(lenses, views, small);
+}
+
+RendererParts Renderer::parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                              const FrameConfig& config) {
+  State& s = *state_;
+  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, lenses, views, config)};
 }
 
 std::size_t Renderer::kernels_made() const {

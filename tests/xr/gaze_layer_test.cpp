@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/support/gaze_program.hpp"
+#include "tests/support/gaze_wearer.hpp"
 #include "xr/gaze_input.hpp"
 
 namespace {
@@ -263,6 +264,17 @@ TEST_P(ValidatedGazeLayer, SaysNothing) {
     EXPECT_TRUE(program.is_active());
     const XrTime now = program.now();
     EXPECT_EQ(program.gaze(now).flags, kValidBits | kTrackedBits);
+    EXPECT_EQ(program.locate(program.local.handle(), program.gaze_space, now).flags, kValidBits);
+  }
+  {
+    support::GazeWearer wearer;
+    wearer.wait_for_focus();
+    EXPECT_TRUE(wearer.read(wearer.now()).eye[0]);
+  }
+  {
+    GazeProgram program;
+    program.wait_for_focus();
+    const XrTime now = program.now();
     EXPECT_EQ(said(), "");
     XrSpaceLocation wrong{};
     EXPECT_EQ(xrLocateSpace(program.view.handle(), program.local.handle(), now, &wrong), XR_ERROR_VALIDATION_FAILURE);

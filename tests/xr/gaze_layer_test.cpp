@@ -267,9 +267,13 @@ TEST_P(ValidatedGazeLayer, SaysNothing) {
     EXPECT_EQ(program.locate(program.local.handle(), program.gaze_space, now).flags, kValidBits);
   }
   {
-    support::GazeWearer wearer;
+    // A validation layer as old as 1.0.20 does not know eye tracking and refuses its structures before anybody below
+    // sees them.
+    const bool above = std::string(GetParam()).starts_with("XR_APILAYER_LUNARG");
+    support::GazeWearer wearer(above ? std::vector<std::string>{XR_EXT_EYE_GAZE_INTERACTION_EXTENSION_NAME}
+                                     : xr::gaze_extensions());
     wearer.wait_for_focus();
-    EXPECT_TRUE(wearer.read(wearer.now()).eye[0]);
+    EXPECT_TRUE(wearer.read(wearer.now()).valid);
   }
   {
     GazeProgram program;

@@ -234,6 +234,29 @@ TEST_F(GazeLayer, OutlivesTheRuntime) {
   EXPECT_EQ(again.gaze(again.now()).flags, kValidBits | kTrackedBits);
 }
 
+std::ptrdiff_t entries_of(const char* folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+// Threads and files of the layer go with its instance.
+TEST_F(GazeLayer, LeavesNothingBehindAfterManySessions) {
+  setenv("VERGENCE_GAZE_SOCKET", (monado_.folder() / "nobody").c_str(), 1);
+  std::ptrdiff_t files = 0, threads = 0;
+  for (int i = 0; i < 20; ++i) {
+    {
+      support::GazeWearer wearer;
+      wearer.wait_for_focus();
+      EXPECT_FALSE(wearer.read(wearer.now()).valid);
+    }
+    if (i == 1) {  // what loader and runtime keep for good is there by now
+      files = entries_of("/proc/self/fd");
+      threads = entries_of("/proc/self/task");
+    }
+  }
+  EXPECT_EQ(entries_of("/proc/self/fd"), files);
+  EXPECT_EQ(entries_of("/proc/self/task"), threads);
+}
+
 // What the OpenXR validation layer says of all that a program does, for either order in the chain: above, it sees what
 // the gaze layer answers; below, what the gaze layer asks.
 class ValidatedGazeLayer : public GazeLayer, public testing::WithParamInterface<const char*> {

@@ -25,6 +25,9 @@ void check_options(const VrOptions& options) {
   if (options.frames) {
     check_range("--frames", *options.frames, 1, kMostFrames, "");
   }
+  if (!options.size.empty()) {
+    (void)size_of("--size", options.size);
+  }
   if (!options.screenshot.empty()) {
     if (std::filesystem::path(options.screenshot).extension() != ".png") {
       throw InputError("--screenshot", "", "'" + options.screenshot + "' must end in .png");

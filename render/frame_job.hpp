@@ -1,12 +1,14 @@
 // One frame in the making: its settings on the device, and the recording of each stage.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lenses/lens_model.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/corner_grid.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/commands.hpp"
 
@@ -37,6 +39,7 @@ class FrameJob {
   using Buffers = std::vector<const vk::Buffer*>;
 
   void aim(vk::Commands& commands);
+  void aim_between_corners(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
@@ -53,6 +56,9 @@ class FrameJob {
   Traversal traversal_;
   const vk::Buffer* accelerated_ = nullptr;  // where rays are traced by ray queries
   vk::Buffer table_, views_;
+  std::optional<vk::Buffer> double_table_, double_views_;  // where the lens is traced in double precision
+  CornerGrid corners_;
+  bool trace_corners_ = false;  // of each frame anew; a field's may be known
   TraceVariant variant_;
   gpu::FrameData data_{};
 };
@@ -67,5 +73,17 @@ class FrameJob {
 // Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
 // them where each pixel has a focus of its own.
 [[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
+
+// Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
+// to know the lens's form.
+[[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
+
+// Whether a lens of this accuracy has rays for the samples of mode dof: one that is interpolated between chief rays has
+// none.
+[[nodiscard]] bool serves_samples(const LensAccuracy& lens);
+
+// What a frame of these views needs. traversal: not automatic.
+[[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views,
+                                             Traversal traversal);
 
 }  // namespace render

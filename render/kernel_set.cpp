@@ -7,10 +7,12 @@
 #include "render/frame_types.hpp"
 #include "shaders/beam_blocks.hpp"
 #include "shaders/beams.hpp"
+#include "shaders/between.hpp"
 #include "shaders/blur.hpp"
 #include "shaders/blur_encode.hpp"
 #include "shaders/chief.hpp"
 #include "shaders/colour.hpp"
+#include "shaders/corners.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
 #include "shaders/find_edges.hpp"
@@ -18,6 +20,7 @@
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
+#include "shaders/rays_double.hpp"
 #include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
 #include "shaders/unsettled.hpp"
@@ -52,9 +55,18 @@ Recipe recipe_of(Stage stage) {
   using enum Binding;
   switch (stage) {
     case Stage::rays:
-      return {"rays", shaders::rays, scene_and(3, {texel_rgba32f}), Constants::aim};
+      return {"rays", shaders::rays, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
+    case Stage::rays_double:
+      return {"rays_double",
+              shaders::rays_double,
+              {texel_rgba32ui, uniform_buffer, storage_buffer, storage_buffer, storage_buffer, texel_rgba32f},
+              Constants::aim};
+    case Stage::corners:
+      return {"corners", shaders::corners, scene_and(1), Constants::scene};
+    case Stage::between:
+      return {"between", shaders::between, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::scene};
     case Stage::unsettled:
-      return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f}), Constants::aim};
+      return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
     case Stage::tile:
       return {"tile",
               shaders::tile,
@@ -70,7 +82,7 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}), Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
     case Stage::find_edges:
@@ -119,8 +131,11 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[1] = variant.scene_features;
     key[4] = variant.bare ? 1U : 0U;
     key[5] = variant.newton_steps;
-    key[6] = variant.keep_transfer ? 1U : 0U;
-    count = 7;
+    const bool passes_rays_on = stage == Stage::rays || stage == Stage::between || stage == Stage::unsettled;
+    const bool keeps = variant.keep_transfer && !variant.sampled;
+    key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
+    key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
+    count = 8;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
@@ -131,7 +146,7 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     count = 9;
   }
   if (recipe.constants == Constants::samples) {
-    key[0] = 0;  // the lens is behind them
+    key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {

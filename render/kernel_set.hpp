@@ -12,6 +12,9 @@ namespace render {
 
 enum class Stage : std::uint32_t {
   rays,
+  rays_double,
+  corners,
+  between,
   unsettled,
   tile,
   ray_query,
@@ -39,7 +42,7 @@ struct TraceVariant {
   std::uint32_t newton_steps = 0;  // LensAccuracy::iterations
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
   bool sampled = false;            // rays are samples of distributed rays
-  bool hits_known = false;         // what samples meet is found by a kernel of its own
+  bool hits_known = false;         // what rays meet is found by a kernel of its own
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.

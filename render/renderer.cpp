@@ -9,6 +9,7 @@
 #include "render/frame_job.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/lens_form_cache.hpp"
 #include "render/map_range.hpp"
 #include "render/sample_error.hpp"
 #include "render/shaders/sample_pattern.h"
@@ -83,13 +84,11 @@ struct Renderer::State {
   }
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
-  RenderedFrame draw(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+  RenderedFrame draw(const lenses::LensModel& worn, const std::vector<ViewSetup>& views, const FrameConfig& config,
                      const Progress& progress, bool read_back = true) {
+    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
-    FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
-                                       .wavefront = keeps_wavefront(config, views),
-                                       .sums = config.mode == Mode::dof,
-                                       .hits = traversal != Traversal::per_ray || config.mode == Mode::dof});
+    FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
@@ -152,6 +151,7 @@ struct Renderer::State {
   SceneBuffers buffers;
   KernelSet kernels;
   Compositor compositor{device};
+  LensFormCache forms;
   std::unique_ptr<FrameBuffers> frame, whole_frame, fovea_frame;
 };
 
@@ -162,7 +162,10 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                const FrameConfig& config, const Progress& progress) {
-  const std::size_t bytes_a_view = pixels_of(config) * (keeps_wavefront(config, views) ? kWavefrontBytes : kPixelBytes);
+  const std::size_t bytes_a_pixel = keeps_transfer(config.accuracy.lens) ? kTransferBytes
+                                    : keeps_wavefront(config, views)     ? kWavefrontBytes
+                                                                         : kPixelBytes;
+  const std::size_t bytes_a_view = pixels_of(config) * bytes_a_pixel;
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);

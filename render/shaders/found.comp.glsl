@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One chief ray a pixel, where other kernels have aimed it (rays) and found what it meets (tile).
+// One chief ray a pixel, where other kernels have aimed it (rays) and, unless kFindHits says otherwise, found what it
+// meets (tile).
+#define TRANSFER_IS_KEPT (kKeepTransfer != 0u)
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
@@ -10,19 +12,43 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 13) uniform usamplerBuffer found_hits;
 layout(binding = 14) uniform samplerBuffer ray_origins;  // as ray_out.glsl leaves them
 layout(binding = 15) uniform samplerBuffer ray_directions;
+layout(binding = 16) uniform samplerBuffer kept;
+layout(constant_id = 7) const uint kFindHits = 0u;  // 1: what a ray meets is found here
+
+RayTransfer kept_transfer(int at) {
+  vec4 a = texelFetch(kept, kTransferTexels * at);
+  vec4 b = texelFetch(kept, kTransferTexels * at + 1);
+  vec4 c = texelFetch(kept, kTransferTexels * at + 2);
+  vec4 d = texelFetch(kept, kTransferTexels * at + 3);
+  return RayTransfer(mat2(a.xy, a.zw), mat2(b.xy, b.zw), mat2(c.xy, c.zw), mat2(d.xy, d.zw));
+}
+
+SightLine found_line(ViewData view, mat3 turn, vec3 direction, vec4 origin, vec4 towards) {
+  if (!TRANSFER_IS_KEPT) {
+    return follow_sight_line(view.lens, view.eye, turn, direction, vec2(origin.w, towards.w));
+  }
+  SightLine line = bare_sight_line(view.eye, turn, direction, vec2(0.0), vec2(0.0));
+  line.direction_object = transpose(mat3(view.world_x.xyz, view.world_y.xyz, view.world_z.xyz)) * towards.xyz;
+  return line;
+}
 
 PixelRay found_ray(ViewData view, vec3 direction, int at) {
   vec4 origin = texelFetch(ray_origins, at);
   vec4 towards = texelFetch(ray_directions, at);
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
-  PixelRay ray = unseen_ray(follow_sight_line(view.lens, view.eye, turn, direction, vec2(origin.w, towards.w)));
+  PixelRay ray = unseen_ray(found_line(view, turn, direction, origin, towards));
   int beside = LENS_USED && view.lens.glass.w != 0.0 ? kStatusMissBack : kStatusOk;
   ray.status = towards.w > 0.0 ? kStatusOk : towards.w < 0.0 ? int(-towards.w) : beside;
+  if (TRANSFER_IS_KEPT && towards.w > 0.0) {
+    ray.transfer = kept_transfer(at);
+    ray.across = upright_axis(ray.line.e_h, ray.line.direction_object);
+  }
   if (!shows_rim(ray.status)) {
-    uint named = texelFetch(found_hits, at).x;
+    bool known = kFindHits == 0u;
+    uint named = known ? texelFetch(found_hits, at).x : kNoTriangle;
     bool met = named != kNoTriangle;
     Hit hit = plane_hit(met ? named : 0u, origin.xyz, towards.xyz).hit;
-    see(view, ray, SceneRay(origin.xyz, towards.xyz), true, met, hit);
+    see(view, ray, SceneRay(origin.xyz, towards.xyz), known, met, hit);
   }
   return ray;
 }

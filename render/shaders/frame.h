@@ -9,7 +9,7 @@ const int kModeAstigmatism = 4;
 const int kModeAccommodation = 5;
 const int kModeBlur = 6;
 
-// 96 bytes of push constants, the same for every kernel of a frame.
+// 112 bytes of push constants, the same for every kernel of a frame.
 struct FrameData {
   ivec4 size;      // width, height, views, mode
   ivec4 sampling;  // index of this sample (dof), -, seed, colour map
@@ -20,6 +20,7 @@ struct FrameData {
   // y: the round of edge rays, 0 or 1.
   ivec4 view;
   uvec4 sample_point;  // dof: the point that all pixels make their own (sample_pattern.h)
+  vec4 corners;  // of interpolated lens rays: pixels between them along x and y, how many along x and y
 };
 
 // A traced pixel, 16 bytes: radiance and the blur ellipse as half floats, the depth beside them.
@@ -29,6 +30,13 @@ struct FrameData {
 
 // A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
 const int kWavefrontTexels = 2;
+
+// A kept ray-transfer matrix (LensAccuracy), four vec4: A, B, C, D by columns, the outgoing basis by upright_axis.
+const int kTransferTexels = 4;
+// A corner of interpolated lens rays, six vec4: (origin, code), (direction, -) in primary axes, the transfer.
+// code: the status and, in bits above it, which segments the ray has met.
+const int kCornerTexels = 6;
+const int kCornerStatusBits = 8;  // codes are less than this where no segment is met
 
 // Squares of pixels that share a beam (beam.glsl), row by row.
 const int kBeamBlock = 4;

@@ -200,7 +200,9 @@ class Tradeoff {
     }
     result_.pictures.push_back(std::move(picture));
     compare_wavefronts(frame, job.row);
-    if (config.mode == Mode::dof) {  // whose frames hold every pixel's wavefront anyway
+    // Once for the picture and once for the time would be too long; the wavefront's trace is lost in so many samples.
+    constexpr int kManySamples = 128;
+    if (config.mode == Mode::dof && config.samples >= kManySamples) {
       keep_time(job, frame);
     }
   }

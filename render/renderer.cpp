@@ -44,9 +44,8 @@ struct Renderer::State {
   State(vk::Device& d, const Scene& scene, const RendererConfig& config)
       : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
-  RenderedFrame render_together(const lenses::LensModel& worn, const std::vector<ViewSetup>& views,
+  RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
-    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     return is_composed(config) ? compose(lenses, views, config, progress) : draw(lenses, views, config, progress);
   }
 
@@ -64,19 +63,31 @@ struct Renderer::State {
     if (plan.fovea) {
       add_times(result.stages, drawn(*plan.fovea, fovea_frame).stages);
     }
-    const Compositor::Layers layers{*whole_frame, plan.fovea ? fovea_frame.get() : nullptr};
+    const DrawnLayers layers{*whole_frame, plan.fovea ? fovea_frame.get() : nullptr};
+    const std::size_t pixels = pixels_of(config) * views.size();
+    const vk::Buffer data = filled_buffer(device, composite_data(plan, config, views));
+    const vk::Buffer radiance(device, config.keep_radiance ? pixels * 8 : 8, vk::Memory::device);
+    const vk::Buffer display(device, pixels * 4, vk::Memory::device);
     vk::Commands commands(device);
-    compositor.record(commands, plan, config, views, layers);
+    compositor.record(commands, config, views.size(), data, layers, radiance, display);
     add_times(result.stages, device.run(commands));
     for (std::size_t i = 0; i < views.size(); ++i) {
-      result.views.push_back(compositor.read(plan, config, views, layers, i));
+      RenderedView& view = result.views.emplace_back();
+      view.display = read_display(display, config, i);
+      if (config.keep_radiance) {
+        view.radiance = read_radiance(radiance, config, i);
+      }
+      if (config.keep_wavefront) {
+        view.wavefront = composed_wavefront(plan, config, views, layers, i);
+      }
     }
     return result;
   }
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
-  RenderedFrame draw(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+  RenderedFrame draw(const lenses::LensModel& worn, const std::vector<ViewSetup>& views, const FrameConfig& config,
                      const Progress& progress, bool read_back = true) {
+    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
     FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
@@ -84,7 +95,7 @@ struct Renderer::State {
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
-    job.record_picture(commands);
+    job.record_picture(commands, read_back);
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
       take_samples(job, out, config, result, progress);
@@ -144,8 +155,8 @@ struct Renderer::State {
   TraversalChoice choice;  // before the scene: it refuses what the device cannot
   SceneBuffers buffers;
   KernelSet kernels;
-  LensFormCache forms;
   Compositor compositor{device};
+  LensFormCache forms;
   std::unique_ptr<FrameBuffers> frame, whole_frame, fovea_frame;
 };
 

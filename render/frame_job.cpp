@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "render/frame_blur.hpp"
 #include "render/gpu_tracer.hpp"
 #include "render/lens_forms/double_view.hpp"
 #include "render/map_range.hpp"
@@ -47,10 +48,6 @@ bool keeps_transfer(const LensAccuracy& lens) {
   return lens.form != LensForm::exact || lens.in_double || lens.spacing > 1;
 }
 
-bool serves_samples(const LensAccuracy& lens) {
-  return lens.form != LensForm::field && (lens.form != LensForm::exact || lens.spacing == 1);
-}
-
 FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views, Traversal traversal) {
   const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
   const bool transfers = keeps_transfer(config.accuracy.lens);
@@ -59,7 +56,8 @@ FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<View
           .sums = config.mode == Mode::dof,
           .hits = traversal != Traversal::per_ray || config.mode == Mode::dof || transfers,
           .transfers = transfers,
-          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size()};
+          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size(),
+          .blur_tiles = config.mode == Mode::adof ? blur_tiles(config.width, config.height) : 0};
 }
 
 bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views) {
@@ -78,11 +76,13 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
       table_(filled_buffer(device, lenses::to_float(lenses.table))),
       views_(filled_buffer(device, view_data(lenses, views))),
       corners_(corner_grid(config.accuracy.lens, config.width, config.height)) {
+  config.accuracy.lens.validate();
   std::vector<lenses::f64::LensData> worn;
   for (const ViewSetup& view : views) {
     worn.push_back(lenses.lens[view.lens]);
   }
   variant_.surface_kinds = surface_kinds(worn);
+  half_pupil_px_ = half_pupils_px(views, config.width);
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config, views);
@@ -94,7 +94,8 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   }
   if (config.accuracy.lens.in_double && variant_.surface_kinds != 0) {
     if (!device.limits().has_float64) {
-      throw vk::DeviceError(device.name() + " has no double precision (shaderFloat64): lens-double cannot be traced there");
+      throw vk::DeviceError(device.name() +
+                            " has no double precision (shaderFloat64): lens-double cannot be traced there");
     }
     double_table_ = filled_buffer(device, lenses.table);
     double_views_ = filled_buffer(device, double_views(views, lenses));
@@ -102,7 +103,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (corners_.rays() > 0) {
     std::vector<std::byte> key;
     if (config.accuracy.lens.form == LensForm::field) {
-      key = corner_key(corners_, view_data(lenses, views), lenses::to_float(lenses.table));
+      key = corner_key(config.accuracy.lens, corners_, view_data(lenses, views), lenses::to_float(lenses.table));
     }
     trace_corners_ = key.empty() || key != out_.corners_of;
     out_.corners_of = std::move(key);
@@ -132,7 +133,14 @@ void FrameJob::record_views(vk::Commands& commands, const vk::Buffer& from) {
   commands.barrier();
 }
 
-void FrameJob::record_picture(vk::Commands& commands) {
+void FrameJob::record_double_views(vk::Commands& commands, const vk::Buffer& from) {
+  if (double_views_) {
+    commands.copy(from, *double_views_, double_views_->bytes());
+    commands.barrier();
+  }
+}
+
+void FrameJob::record_picture(vk::Commands& commands, bool shown) {
   if (config_.mode != Mode::dof || variant_.keep_wavefront) {
     record_trace(commands);
   }
@@ -141,8 +149,8 @@ void FrameJob::record_picture(vk::Commands& commands) {
       record_edges(commands);
     }
     record_blur(commands);
-    if (!config_.keep_radiance) {
-      return;  // the blur has encoded too
+    if (!config_.keep_radiance || !shown) {
+      return;  // the blur has encoded too, or nobody asks for it
     }
   }
   if (!encodes_later(config_)) {
@@ -199,7 +207,7 @@ void FrameJob::aim_between_corners(vk::Commands& commands) {
     commands.barrier();
   }
   dispatch_view(commands, kernels_.get(Stage::between, variant_),
-                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.transfers, &out_.corners}));
+                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.corners, &out_.transfers}));
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {
@@ -244,13 +252,6 @@ void FrameJob::record_edges(vk::Commands& commands) {
     data_.view.y = 0;
   }
   commands.timestamp("edges");
-}
-
-void FrameJob::record_blur(vk::Commands& commands) {
-  commands.barrier();
-  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
-           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
-  commands.timestamp("blur");
 }
 
 void FrameJob::record_encode(vk::Commands& commands) {

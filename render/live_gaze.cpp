@@ -50,6 +50,26 @@ Ray through_both(const lenses::f64::Table& table, const std::array<EyeOptics, 2>
   return {0.5 * (right.start + left.start), glm::normalize(right.direction + left.direction)};
 }
 
+// What a ray meets, in the scene or at a distance from the midpoint between the eyes that is given.
+struct Seen {
+  glm::dvec3 point{0.0};
+  double distance = std::numeric_limits<double>::infinity();  // of it from that midpoint
+};
+Seen seen_along(const Ray& ray, const glm::dvec3& middle, const SceneAlong& scene, std::optional<double> distance) {
+  std::optional<double> along;
+  if (!distance) {
+    along = scene(ray.start, ray.direction);
+  } else if (std::isfinite(*distance)) {
+    along = along_to(ray.start, ray.direction, middle, *distance);
+  }
+  Seen seen;
+  seen.point = ray.start + along.value_or(kSkyDistance) * ray.direction;
+  if (along) {
+    seen.distance = glm::length(seen.point - middle);
+  }
+  return seen;
+}
+
 // The slope of the line that a tracker would give for two eyes turned so, if its line began at `origin` (from midway
 // between the eyes' centres of rotation, which their lines pass): towards where the eyes' lines meet before the lenses.
 glm::dvec2 combined_slope(const std::array<glm::dvec3, 2>& gaze, double baseline, const glm::dvec3& origin) {
@@ -82,42 +102,29 @@ Fixation fixate_combined(const lenses::f64::Table& table, const std::array<EyeOp
                          const tracking::Pose& world_from_head, const tracking::Line& gaze, const SceneAlong& scene,
                          std::optional<double> distance) {
   const glm::dvec3 middle = midpoint(eyes);
-  const tracking::Pose head_from_world = world_from_head.inverse();
   const glm::dvec3 centre(0.0, 0.0, 0.5 * (eyes[0].eye.pupil.y + eyes[1].eye.pupil.y));
-  const glm::dvec3 origin = gaze.origin - (head_from_world.point(middle) + centre);
+  const glm::dvec3 origin = gaze.origin - (world_from_head.inverse().point(middle) + centre);
   const double baseline =
       std::max(1e-3, glm::length(eyes[0].world_from_eye.position - eyes[1].world_from_eye.position));
   const glm::dvec2 wanted = slope(gaze.direction);
   glm::dvec2 cast = wanted;
   double least = std::numeric_limits<double>::infinity();
-  glm::dvec3 best(0.0);
-  double best_distance = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const Ray ray = through_both(table, eyes, viewing, direction(cast));
-    std::optional<double> along;
-    if (!distance) {
-      along = scene(ray.start, ray.direction);
-    } else if (std::isfinite(*distance)) {
-      along = along_to(ray.start, ray.direction, middle, *distance);
-    }
-    const glm::dvec3 point = ray.start + along.value_or(kSkyDistance) * ray.direction;
+  Seen best;
+  // Across an edge of the scene there may be no point that fits; then the nearest that was found is it.
+  for (int i = 0; i < kSteps && least > kSettled; ++i) {
+    const Seen seen = seen_along(through_both(table, eyes, viewing, direction(cast)), middle, scene, distance);
     std::array<glm::dvec3, 2> turned;
     for (std::size_t eye = 0; eye < 2; ++eye) {
-      turned[eye] = look_at(table, eyes[eye], viewing, point).gaze;
+      turned[eye] = look_at(table, eyes[eye], viewing, seen.point).gaze;
     }
     const glm::dvec2 miss = wanted - combined_slope(turned, baseline, origin);
     if (glm::length(miss) < least) {
       least = glm::length(miss);
-      best = point;
-      best_distance = along ? glm::length(point - middle) : std::numeric_limits<double>::infinity();
+      best = seen;
     }
-    if (!(least > kSettled)) {
-      break;
-    }
-    // Across an edge of the scene there may be no point that fits; then the nearest that was found is it.
     cast += miss;
   }
-  return fixate(table, eyes, viewing, best, best_distance);
+  return fixate(table, eyes, viewing, best.point, best.distance);
 }
 
 Fixation fixate_each(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes, Viewing viewing,

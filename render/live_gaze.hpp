@@ -14,6 +14,7 @@ namespace render {
 // What a ray of the world meets first, m along its unit direction; nothing: the sky.
 using SceneAlong = std::function<std::optional<double>(const glm::dvec3& origin, const glm::dvec3& direction)>;
 
+// Refers to the query, which must outlive it and stay where it is.
 [[nodiscard]] SceneAlong scene_along(const RayQuery& query);
 
 // The direction, from midway between two eyes whose lines have these directions, to where the lines meet; all in head

@@ -55,11 +55,7 @@ TEST_F(ViewerWarning, IsInTableAndJson) {
   EXPECT_NE(table.find("warning: the lenses' vertical prisms differ by"), std::string::npos);
 }
 
-TEST_F(ViewerWarning, NothingIsSaidWhereNothingIsWrong) {
-  const std::string wearer = folder_.write("wearer.json", R"({"age": 60, "viewer": {"left": {}, "right": {}}})");
-  const std::string headset = folder_.write("headset.json", R"({"focal_distance_m": 5})");
-  EXPECT_FALSE(json::parse(run({"--json", "--wearer", wearer, "--headset", headset})).contains("findings"));
-  // On a desktop nobody wears a headset.
+TEST_F(ViewerWarning, OnADesktopNobodyWearsAHeadset) {
   EXPECT_FALSE(json::parse(run({"--json", "--spectacles", kPrism})).contains("findings"));
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lenses/viewer_findings.hpp"
+#include "app/viewer_report.hpp"
 
 namespace app {
 
@@ -30,7 +30,7 @@ struct VrReport {
   int width = 0, height = 0;  // of each eye's image
   int guard_px = 0;
   std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
-  std::vector<lenses::Finding> findings;               // what the person inside should know
+  std::vector<ViewerFinding> findings;                 // what the person inside should know
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order
   std::vector<std::pair<std::string, TimeRing>> device_stages;

@@ -85,7 +85,6 @@ class VrRun {
     report_.space = name_of(loop_.space().type());
     report_.width = config_.frame.width;
     report_.height = config_.frame.height;
-    tell(lenses::viewer_findings(wearer_.setup().wearer, *wearer_.setup().headset));
     if (!options.record.empty()) {
       start_recording();
     }
@@ -111,25 +110,20 @@ class VrRun {
     return scene;
   }
 
-  // Before the picture, and again in the report.
-  void tell(const std::vector<lenses::Finding>& findings) {
-    for (const lenses::Finding& finding : findings) {
-      std::cerr << "note: " << finding.message << '\n';
-      report_.findings.push_back(finding);
-    }
-  }
-
-  // The headset's lenses stand apart as the views do; the wearer's spectacles as the wearer's pupils would.
-  void compare_distances(const xr::Frame& frame) {
+  // What the person inside should know, before the first picture and again in the report. The headset's lenses stand
+  // apart as the views do, the wearer's spectacles as the wearer's pupils would.
+  void warn(const xr::Frame& frame) {
     const RenderSetup& setup = wearer_.setup();
+    report_.findings = viewer_report(setup);
     const double apart = glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position);
     std::array<double, 2> power{};
     for (const std::size_t i : {0U, 1U}) {
       power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);
     }
     if (const auto finding = lenses::distance_finding(setup.wearer, apart, power)) {
-      tell({*finding});
+      report_.findings.push_back({"", *finding});
     }
+    std::cerr << to_table(report_.findings);
   }
 
   void show_frames() {
@@ -233,7 +227,7 @@ class VrRun {
     place(frame);
     mark("place");
     if (!live_) {
-      compare_distances(frame);
+      warn(frame);
       make_live();
       last = Clock::now();
     }

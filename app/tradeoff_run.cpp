@@ -152,7 +152,8 @@ class Tradeoff {
     config.width = setup_.size[0];
     config.height = setup_.size[1];
     config.mode = Mode::dof;
-    config.accuracy.lens.in_double = true;
+    config.accuracy.lens.in_double = device_.limits().has_float64;
+    result_.report.reference_in_double = config.accuracy.lens.in_double;
     config.samples = config_.reference_samples;
     config.seed = config_.seed ^ kReferenceSeed;
     config.exposure = config_.exposure;

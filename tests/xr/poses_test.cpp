@@ -100,8 +100,8 @@ TEST_F(Headset, PosesAndFieldsOfViewComeBackAsTheyWereSent) {
   program.leave();
 }
 
-// The user recentres: LOCAL's origin moves to where the head is, from an announced time on, and what was remembered can
-// be carried over.
+// The user recentres: LOCAL's origin moves to where the head is, from an announced time on. (Monado does not say how
+// far.)
 TEST_F(Headset, RecentringMovesTheSpaceAtItsTime) {
   const support::Monado monado({.remote = true});
   support::RemoteHub hub;
@@ -125,8 +125,6 @@ TEST_F(Headset, RecentringMovesTheSpaceAtItsTime) {
     }
   }
   ASSERT_TRUE(new_from_old);
-  // The head has not moved in the room: its remembered pose, carried over, is what is located now.
-  EXPECT_LT(difference(*new_from_old * before, frame->space_from_head), 1e-5);
   // LOCAL looks where the head does, level, from where it is.
   const glm::dvec3 ahead = frame->space_from_head.direction({0.0, 0.0, -1.0});
   EXPECT_LT(glm::length(ahead - glm::dvec3(0.0, 0.0, -1.0)), 1e-5);

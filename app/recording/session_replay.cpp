@@ -78,8 +78,9 @@ std::vector<RecordedEvent> SessionReplay::events_before(std::size_t index) const
   if (!record_) {
     return {};
   }
-  const auto range = std::ranges::equal_range(record_->events, index, {}, &RecordedEvent::frame);
-  return {range.begin(), range.end()};
+  const auto begin = std::ranges::lower_bound(record_->events, index, {}, &RecordedEvent::frame);
+  const auto end = std::ranges::upper_bound(record_->events, index, {}, &RecordedEvent::frame);
+  return {begin, end};
 }
 
 }  // namespace app

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "render/frame_blur.hpp"
 #include "render/gpu_tracer.hpp"
 #include "render/lens_forms/double_view.hpp"
 #include "render/map_range.hpp"
@@ -55,7 +56,8 @@ FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<View
           .sums = config.mode == Mode::dof,
           .hits = traversal != Traversal::per_ray || config.mode == Mode::dof || transfers,
           .transfers = transfers,
-          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size()};
+          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size(),
+          .blur_tiles = config.mode == Mode::adof ? blur_tiles(config.width, config.height) : 0};
 }
 
 bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views) {
@@ -80,6 +82,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
     worn.push_back(lenses.lens[view.lens]);
   }
   variant_.surface_kinds = surface_kinds(worn);
+  half_pupil_px_ = half_pupils_px(views, config.width);
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config, views);
@@ -249,13 +252,6 @@ void FrameJob::record_edges(vk::Commands& commands) {
     data_.view.y = 0;
   }
   commands.timestamp("edges");
-}
-
-void FrameJob::record_blur(vk::Commands& commands) {
-  commands.barrier();
-  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
-           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
-  commands.timestamp("blur");
 }
 
 void FrameJob::record_encode(vk::Commands& commands) {

@@ -41,6 +41,7 @@ class FrameJob {
   void aim(vk::Commands& commands);
   void aim_between_corners(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
+  void find_layers(vk::Commands& commands, const BlurVariant& variant);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);
@@ -61,6 +62,7 @@ class FrameJob {
   bool trace_corners_ = false;  // of each frame anew; a field's may be known
   TraceVariant variant_;
   gpu::FrameData data_{};
+  std::vector<float> half_pupil_px_;  // of each view: what the pupil's half spans at a dioptre, px
 };
 
 // Views as the kernels take them, kMostViews of them.

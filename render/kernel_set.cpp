@@ -9,7 +9,10 @@
 #include "shaders/beams.hpp"
 #include "shaders/between.hpp"
 #include "shaders/blur.hpp"
-#include "shaders/blur_encode.hpp"
+#include "shaders/blur_layers.hpp"
+#include "shaders/blur_reach.hpp"
+#include "shaders/blur_squares.hpp"
+#include "shaders/blur_tiles.hpp"
 #include "shaders/chief.hpp"
 #include "shaders/colour.hpp"
 #include "shaders/corners.hpp"
@@ -42,7 +45,7 @@ std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding>
 }
 
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
-enum class Constants { none, lanes_and_features, scene, chief, aim, samples };
+enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 struct Recipe {
   const char* name;
@@ -99,9 +102,27 @@ Recipe recipe_of(Stage stage) {
       return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
               Constants::samples};
     case Stage::blur:
-      return {"blur", shaders::blur, {texel_rgba32ui, storage_buffer}, Constants::none};
-    case Stage::blur_encode:
-      return {"blur_encode", shaders::blur_encode, {texel_rgba32ui, storage_buffer}, Constants::none};
+      return {"blur",
+              shaders::blur,
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui, texel_rg32ui},
+              Constants::blur};
+    case Stage::blur_squares:
+      return {"blur_squares",
+              shaders::blur_squares,
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui},
+              Constants::blur};
+    case Stage::blur_tiles:
+      return {"blur_tiles", shaders::blur_tiles, {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer}, Constants::blur};
+    case Stage::blur_reach:
+      return {"blur_reach",
+              shaders::blur_reach,
+              {texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
+              Constants::blur};
+    case Stage::blur_layers:
+      return {"blur_layers",
+              shaders::blur_layers,
+              {texel_rgba32ui, storage_buffer, texel_r32ui, storage_buffer, texel_rgba32ui},
+              Constants::blur};
     case Stage::encode:
       return {"encode", shaders::encode, {texel_rg32ui, storage_buffer}, Constants::none};
     case Stage::colour:
@@ -119,9 +140,7 @@ bool can_trace_tiles(const vk::DeviceLimits& limits) {
 
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
-  // By constant id, then the stage.
-  std::array<std::uint32_t, 10> key{};
-  key.back() = static_cast<std::uint32_t>(stage);
+  Key key{};
   std::size_t count = 0;
   if (recipe.constants == Constants::lanes_and_features) {
     key[0] = device_.limits().subgroup_size;
@@ -147,15 +166,26 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     count = 9;
   }
   if (recipe.constants == Constants::samples) {
-    key[0] = 0;  // the lens is behind them
+    key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
+  return get(stage, key, count);
+}
+
+const vk::Kernel& KernelSet::get(Stage stage, const BlurVariant& variant) {
+  return get(stage, {variant.taps, variant.gaussian ? 1U : 0U, variant.encode ? 1U : 0U,
+                     static_cast<std::uint32_t>(variant.rate)}, 4);
+}
+
+const vk::Kernel& KernelSet::get(Stage stage, Key key, std::size_t constants) {
+  key.back() = static_cast<std::uint32_t>(stage);
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {
     return found->second;
   }
-  const auto constants = std::span<const std::uint32_t>(key).first(count);
+  const Recipe recipe = recipe_of(stage);
   return kernels_
-      .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData), constants, recipe.name))
+      .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData),
+                               std::span<const std::uint32_t>(key).first(constants), recipe.name))
       .first->second;
 }
 

@@ -11,6 +11,18 @@ constexpr Rung lens_rung(std::string_view name, std::string_view subject, std::s
   return {.name = name, .subject = subject, .what = what, .accuracy = {.lens = lens}};
 }
 
+constexpr Rung resolution_rung(std::string_view name, double resolution, std::string_view what) {
+  Accuracy accuracy;
+  accuracy.resolution = resolution;
+  return {.name = name, .subject = "resolution", .what = what, .accuracy = accuracy};
+}
+
+constexpr Rung foveated_rung(std::string_view name, double fovea_deg, int rate, std::string_view what) {
+  Accuracy accuracy;
+  accuracy.foveation = {.fovea_deg = fovea_deg, .rate = rate};
+  return {.name = name, .subject = "foveation", .what = what, .accuracy = accuracy};
+}
+
 constexpr Rung samples_rung(std::string_view name, int samples) {
   return {.name = name,
           .subject = "dof samples",
@@ -18,6 +30,11 @@ constexpr Rung samples_rung(std::string_view name, int samples) {
           .accuracy = {},
           .mode = Mode::dof,
           .samples = samples};
+}
+
+constexpr Rung blur_rung(std::string_view name, std::string_view subject, std::string_view what,
+                         const BlurAccuracy& blur) {
+  return {.name = name, .subject = subject, .what = what, .accuracy = {.blur = blur}, .mode = Mode::adof};
 }
 
 constexpr std::array kLadder{
@@ -54,6 +71,23 @@ constexpr std::array kLadder{
               {.form = LensForm::field, .field_side = 64}),
     lens_rung("lens-field-256", "lens field", "256 x 256 lens rays over the view, kept while eye and lens stay",
               {.form = LensForm::field, .field_side = 256}),
+
+    // The blur.
+    blur_rung("blur-4-taps", "blur taps", "at most 4 taps for a blur", {.taps = 4}),
+    blur_rung("blur-16-taps", "blur taps", "at most 16 taps for a blur", {.taps = 16}),
+    blur_rung("blur-64-taps", "blur taps", "at most 64 taps for a blur", {.taps = 64}),
+    blur_rung("blur-1024-taps", "blur taps", "at most 1024 taps for a blur", {.taps = 1024}),
+    blur_rung("blur-full-rate", "blur rate", "wide blurs gathered for every pixel, not every second", {.rate = 1}),
+    blur_rung("blur-finest", "blur rate", "at most 1024 taps for a blur, gathered for every pixel",
+              {.taps = 1024, .rate = 1}),
+    blur_rung("blur-gaussian", "blur kernel", "a Gaussian of the disc's second moments (the paper's ADOF)",
+              {.kernel = BlurKernel::gaussian}),
+
+    // Fewer pixels than are shown.
+    resolution_rung("half-resolution", 0.5, "half the pixels along each side, enlarged"),
+    resolution_rung("three-quarter-resolution", 0.75, "three quarters of the pixels along each side, enlarged"),
+    foveated_rung("foveated-5-4", 5.0, 4, "a quarter of the pixels along each side beyond 5 degrees from the gaze"),
+    foveated_rung("foveated-10-2", 10.0, 2, "half the pixels along each side beyond 10 degrees from the gaze"),
 
     // Modes and distributed rays.
     Rung{.name = "pinhole",

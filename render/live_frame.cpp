@@ -40,6 +40,16 @@ std::vector<ViewSetup> guarded(std::vector<ViewSetup> views, const LiveConfig& c
   return views;
 }
 
+void put_row(Image8& picture, int x, int y, const std::vector<std::uint32_t>& words, bool blue_first) {
+  std::size_t to =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+  for (const std::uint32_t word : words) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      picture.rgb[to++] = static_cast<std::uint8_t>((word >> (8 * (blue_first ? 2 - c : c))) & 255U);
+    }
+  }
+}
+
 }  // namespace
 
 tracking::FieldOfView with_guard(const tracking::FieldOfView& fov, int width, int height, int guard_px) {
@@ -131,13 +141,13 @@ struct LiveFrame::State {
   }
 
   [[nodiscard]] vk::ExternalImage image(std::size_t eye, std::uint32_t index) const {
-    return {targets[eye].images.at(index), config.frame.width, config.frame.height};
+    return {images[eye].at(index), config.frame.width, config.frame.height};
   }
 
   void record_copies() {
-    for (std::size_t eye = 0; eye < targets.size(); ++eye) {
+    for (std::size_t eye = 0; eye < images.size(); ++eye) {
       std::vector<vk::Commands>& list = copies.emplace_back();
-      for (std::uint32_t i = 0; i < targets[eye].images.size(); ++i) {
+      for (std::uint32_t i = 0; i < images[eye].size(); ++i) {
         vk::copy_to_image(list.emplace_back(device), blocks_of(eye), image(eye, i));
         list.back().timestamp("copy");
       }
@@ -152,21 +162,21 @@ struct LiveFrame::State {
   vk::Buffer double_upload, upload, divider;
   std::optional<vk::Kernel> swap;
   vk::Commands picture;
-  std::vector<LiveTarget> targets;
+  std::vector<std::vector<VkImage>> images;
   std::vector<std::vector<vk::Commands>> copies;  // by eye and image
   vk::Submission submission;                      // last: it waits for all of the above
 };
 
 LiveFrame::LiveFrame(Renderer& renderer, const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
-                     const LiveConfig& config, const std::vector<LiveTarget>& targets) {
-  if (views.size() != config.pairs * config.eyes || targets.size() != config.eyes ||
+                     const LiveConfig& config, const std::vector<std::vector<VkImage>>& images) {
+  if (views.size() != config.pairs * config.eyes || images.size() != config.eyes ||
       views.size() > static_cast<std::size_t>(gpu::kMostViews)) {
     throw std::invalid_argument("a running picture needs a view for each eye of each pair, and images for each eye");
   }
   const FrameConfig frame = traced(config);
   state_ = std::make_unique<State>(renderer.parts(lenses, views, frame), lenses, views, config);
-  state_->targets = targets;
-  if (std::ranges::any_of(targets, &LiveTarget::blue_first)) {
+  state_->images = images;
+  if (config.blue_first) {
     state_->record_swap();
   }
   state_->record_copies();
@@ -193,22 +203,34 @@ std::vector<vk::StageTime> LiveFrame::wait() {
   return state_->submission.wait();
 }
 
+Image8 LiveFrame::read_picture(std::size_t eye) {
+  State& s = *state_;
+  (void)s.submission.wait();
+  Image8 picture = black_image(s.config.frame.width, s.config.frame.height);
+  for (const vk::PixelBlock& block : s.blocks_of(eye)) {
+    for (int y = 0; y < block.height; ++y) {
+      const std::size_t from =
+          block.offset + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(block.row_pixels);
+      put_row(picture, block.x, y, block.from->read<std::uint32_t>(static_cast<std::size_t>(block.width), from),
+              s.config.blue_first);
+    }
+  }
+  return picture;
+}
+
 Image8 LiveFrame::read_image(std::size_t eye, std::uint32_t image) {
   State& s = *state_;
   (void)s.submission.wait();
   const vk::ExternalImage from = s.image(eye, image);
-  const std::size_t count = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
-  vk::Buffer pixels(s.device, 4 * count, vk::Memory::readback);
+  const auto width = static_cast<std::size_t>(from.width);
+  vk::Buffer pixels(s.device, 4 * width * static_cast<std::size_t>(from.height), vk::Memory::readback);
   vk::Commands commands(s.device);
   vk::copy_from_image(commands, from, pixels);
   (void)s.device.run(commands);
-  const auto words = pixels.read<std::uint32_t>(count);
-  Image8 picture{from.width, from.height, std::vector<std::uint8_t>(3 * count)};
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t byte = s.targets[eye].blue_first ? 2 - c : c;
-      picture.rgb[3 * i + c] = static_cast<std::uint8_t>((words[i] >> (8 * byte)) & 255U);
-    }
+  Image8 picture = black_image(from.width, from.height);
+  for (int y = 0; y < from.height; ++y) {
+    put_row(picture, 0, y, pixels.read<std::uint32_t>(width, 4 * width * static_cast<std::size_t>(y)),
+            s.config.blue_first);
   }
   return picture;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "render/composite.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_job.hpp"
 #include "render/frame_types.hpp"
@@ -41,10 +43,39 @@ struct Renderer::State {
   State(vk::Device& d, const Scene& scene, const RendererConfig& config)
       : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
-  // All views in one submission, but for samples and for a map whose range the picture itself must tell.
   RenderedFrame render_together(const lenses::LensModel& worn, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
     const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
+    return is_composed(config) ? compose(lenses, views, config, progress) : draw(lenses, views, config, progress);
+  }
+
+  // Each layer into buffers of its own.
+  RenderedFrame compose(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+                        const Progress& progress) {
+    const CompositePlan plan = plan_composite(config, views);
+    const auto drawn = [&](const CompositeLayer& layer, std::unique_ptr<FrameBuffers>& layer_frame) {
+      std::swap(frame, layer_frame);
+      RenderedFrame result = draw(lenses, layer.views, layer.config, progress, false);
+      std::swap(frame, layer_frame);
+      return result;
+    };
+    RenderedFrame result = drawn(plan.whole, whole_frame);
+    if (plan.fovea) {
+      add_times(result.stages, drawn(*plan.fovea, fovea_frame).stages);
+    }
+    const Compositor::Layers layers{*whole_frame, plan.fovea ? fovea_frame.get() : nullptr};
+    vk::Commands commands(device);
+    compositor.record(commands, plan, config, views, layers);
+    add_times(result.stages, device.run(commands));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      result.views.push_back(compositor.read(plan, config, views, layers, i));
+    }
+    return result;
+  }
+
+  // All views in one submission, but for samples and for a map whose range the picture itself must tell.
+  RenderedFrame draw(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+                     const Progress& progress, bool read_back = true) {
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
     FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
@@ -65,7 +96,7 @@ struct Renderer::State {
       job.record_encode(last);
       add_times(result.stages, device.run(last));
     }
-    for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t i = 0; read_back && i < views.size(); ++i) {
       result.views.push_back(read_view(out, config, i));
     }
     return result;
@@ -109,7 +140,8 @@ struct Renderer::State {
   SceneBuffers buffers;
   KernelSet kernels;
   LensFormCache forms;
-  std::unique_ptr<FrameBuffers> frame;
+  Compositor compositor{device};
+  std::unique_ptr<FrameBuffers> frame, whole_frame, fovea_frame;
 };
 
 Renderer::Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config)

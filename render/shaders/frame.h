@@ -13,7 +13,8 @@ const int kModeBlur = 6;
 struct FrameData {
   ivec4 size;      // width, height, views, mode
   ivec4 sampling;  // index of this sample (dof), -, seed, colour map
-  vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor, -
+  vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor,
+                   // how many pixels the pupil's half sets apart what lies a dioptre apart
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
@@ -49,3 +50,18 @@ const uint kListMostGroups = 65535u;
 const uint kListCountAt = 3u;
 const uint kListFirstAt = 4u;
 const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alone, so that few rays may miss it
+
+// Approximate defocus looks at a picture tile by tile.
+const int kBlurTile = 8;         // px a side
+const int kMostBlurTiles = 16;   // as far as a tile looks for blur that reaches it
+const float kBlurParallax = 0.5; // px that the pupil's half may set apart what counts as one depth
+const float kNearestFill = 1.0; // px^-2: how soon light behind an edge counts less with distance
+const float kWideBlur = 4.0;     // px, a minor semi-axis from which neighbours may share a gather
+
+// Means over squares of 2, 4 and 8 pixels: level after level, whole tiles, row by row.
+#ifndef __cplusplus
+int blur_level_width(ivec2 tiles, int level) { return tiles.x * (kBlurTile >> level); }
+int blur_level_start(ivec2 tiles, int level) {
+  return tiles.x * tiles.y * (level > 2 ? 20 : (level > 1 ? 16 : 0));
+}
+#endif

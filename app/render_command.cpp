@@ -181,6 +181,7 @@ RenderReport report_of(const RenderOptions& options, const RenderSetup& setup, c
   report.range_high = drawn.frame.range.high;
   report.range_unit = map_unit(config.mode);
   report.sight = sight_rows(setup);
+  report.findings = viewer_report(setup);
   report.stages = stage_rows(drawn.runs);
   report.peak_memory_mib = peak_memory_mib();
   return report;

@@ -24,6 +24,21 @@ nlohmann::ordered_json json_of(const Times& times) {
   return json;
 }
 
+nlohmann::ordered_json json_of(const std::vector<lenses::Finding>& findings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const lenses::Finding& finding : findings) {
+    nlohmann::ordered_json one{{"code", finding.code}};
+    if (finding.side) {
+      one["side"] = *finding.side == lenses::Side::right ? "right" : "left";
+    }
+    one["value"] = finding.value;
+    one["unit"] = finding.unit;
+    one["message"] = finding.message;
+    json.push_back(one);
+  }
+  return json;
+}
+
 void print(std::ostream& out, const char* where, const Times& times) {
   for (const auto& [name, ring] : times) {
     out << std::left << std::setw(8) << where << std::setw(14) << name << std::right << std::setw(10)
@@ -74,8 +89,11 @@ std::string to_table(const VrReport& report) {
   out << "runtime  " << report.runtime << "\nheadset  " << report.headset << "\ndevice   " << report.device
       << "\nspace    " << report.space << "\nimages   " << report.width << 'x' << report.height << " each, and "
       << report.guard_px << " pixels around them\ngaze     " << sources_text(report) << "\nframes   " << report.shown
-      << " shown, " << report.skipped << " without a picture\n\n";
-  out << std::fixed << std::setprecision(3) << "                      ms median      p99\n";
+      << " shown, " << report.skipped << " without a picture\n";
+  for (const lenses::Finding& finding : report.findings) {
+    out << "note     " << finding.message << '\n';
+  }
+  out << std::fixed << std::setprecision(3) << "\n                      ms median      p99\n";
   print(out, "host", report.host);
   print(out, "device", report.device_stages);
   return out.str();
@@ -89,6 +107,7 @@ std::string to_json(const VrReport& report) {
                                     {"size", std::to_string(report.width) + "x" + std::to_string(report.height)},
                                     {"guard_px", report.guard_px},
                                     {"gaze_frames", report.gaze_sources},
+                                    {"findings", json_of(report.findings)},
                                     {"frames_shown", report.shown},
                                     {"frames_skipped", report.skipped},
                                     {"host_ms", json_of(report.host)},

@@ -12,10 +12,6 @@
 #include "shaders/composite.hpp"
 
 namespace render {
-namespace gpu {
-#include "render/shaders/composite.h"
-}
-
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -88,40 +84,74 @@ FrameConfig layer_config(const FrameConfig& config, const glm::ivec2& extent, do
   return layer;
 }
 
-std::optional<CompositeLayer> fovea_layer(const FrameConfig& config, const std::vector<ViewSetup>& views) {
-  const Foveation& foveation = config.accuracy.foveation;
+// A cone around the gaze that holds all of the fovea that is shown, and as much more as a blur reaches.
+PixelRect fovea_pixels(const FrameConfig& config, const ViewSetup& view) {
+  const double shown = std::acos(fovea_fade(config.accuracy.foveation).cos_outer);
+  return cone_pixels(view, {config.width, config.height}, shown + kBlurReach_deg * kDegree);
+}
+
+// The layer's part of each view, as the gaze is now.
+void aim_fovea(CompositeLayer& layer, const FrameConfig& config, const std::vector<ViewSetup>& views) {
   const glm::ivec2 size(config.width, config.height);
-  const double shown = std::acos(fovea_fade(foveation).cos_outer);
-  std::vector<PixelRect> rects;
-  glm::ivec2 extent(0);
+  layer.origin.clear();
+  layer.views.clear();
   for (const ViewSetup& view : views) {
-    rects.push_back(cone_pixels(view, size, shown + kBlurReach_deg * kDegree));
-    extent = glm::max(extent, rects.back().high - rects.back().low);
+    const PixelRect rect = fovea_pixels(config, view);
+    const glm::ivec2 low = (rect.low + rect.high - layer.extent) / 2;
+    layer.origin.push_back(glm::clamp(low, glm::ivec2(0), size - layer.extent));
+    layer.views.push_back(part_of(view, size, layer.origin.back(), layer.extent));
   }
-  if (extent.x == 0 || extent.y == 0) {
+}
+
+// Large enough for the largest of the views' cones, times `room`.
+std::optional<CompositeLayer> fovea_layer(const FrameConfig& config, const std::vector<ViewSetup>& views, double room) {
+  CompositeLayer layer;
+  for (const ViewSetup& view : views) {
+    const PixelRect rect = fovea_pixels(config, view);
+    layer.extent = glm::max(layer.extent, rect.high - rect.low);
+  }
+  if (layer.extent.x == 0 || layer.extent.y == 0) {
     return std::nullopt;
   }
-  CompositeLayer layer;
-  layer.config = layer_config(config, extent, config.accuracy.resolution);
-  layer.extent = extent;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    layer.origin.push_back(glm::clamp(rects[i].low, glm::ivec2(0), size - extent));
-    layer.views.push_back(part_of(views[i], size, layer.origin.back(), extent));
-  }
+  layer.extent =
+      glm::min(glm::ivec2(glm::ceil(room * glm::dvec2(layer.extent))), glm::ivec2(config.width, config.height));
+  layer.config = layer_config(config, layer.extent, config.accuracy.resolution);
+  aim_fovea(layer, config, views);
   return layer;
+}
+
+CompositePlan plan_with(const FrameConfig& config, const std::vector<ViewSetup>& views, double room) {
+  const glm::ivec2 size(config.width, config.height);
+  const Foveation& foveation = config.accuracy.foveation;
+  CompositePlan plan;
+  double resolution = config.accuracy.resolution;
+  if (foveation.rate > 1 && foveation.fovea_deg > 0.0) {
+    plan.fovea = fovea_layer(config, views, room);
+    const double fovea =
+        plan.fovea ? double(plan.fovea->extent.x) * plan.fovea->extent.y / (double(size.x) * size.y) : 0.0;
+    const double rate = foveation.rate;
+    if (fovea + 1.0 / (rate * rate) < kWorthwhile) {
+      resolution /= rate;
+    } else {
+      plan.fovea.reset();
+    }
+  }
+  plan.whole = {layer_config(config, size, resolution), views, std::vector<glm::ivec2>(views.size(), {0, 0}), size};
+  return plan;
 }
 
 gpu::CompositeData data_of(const CompositePlan& plan, const FrameConfig& config, const ViewSetup& view,
                            std::size_t index) {
+  const tracking::FieldOfView& fov = view.view.fov;
+  const double pixels_per_radian = config.width / (fov.tan_left + fov.tan_right);
+  const int reach = static_cast<int>(kBlurReach_deg * kDegree * pixels_per_radian);
   gpu::CompositeData data{};
-  data.shown = glm::ivec4(config.width, config.height, static_cast<int>(index), config.keep_radiance ? 1 : 0);
+  data.shown = glm::ivec4(config.width, config.height, config.keep_radiance ? 1 : 0, reach);
   data.whole = glm::ivec4(plan.whole.config.width, plan.whole.config.height, 0, 0);
   if (plan.fovea) {
-    data.fovea = glm::ivec4(plan.fovea->config.width, plan.fovea->config.height, plan.fovea->origin[index].x,
-                            plan.fovea->origin[index].y);
+    data.fovea = glm::ivec4(plan.fovea->config.width, plan.fovea->config.height, plan.fovea->origin[index]);
     data.extent = glm::ivec4(plan.fovea->extent, 0, 0);
   }
-  const tracking::FieldOfView& fov = view.view.fov;
   data.tangents = glm::vec4(fov.tan_left, fov.tan_right, fov.tan_down, fov.tan_up);
   data.gaze = glm::vec4(glm::vec3(gaze_in_picture(view)), std::exp2(static_cast<float>(config.exposure)));
   const FoveaFade fade = fovea_fade(config.accuracy.foveation);
@@ -166,64 +196,60 @@ FoveaFade fovea_fade(const Foveation& foveation) {
 }
 
 CompositePlan plan_composite(const FrameConfig& config, const std::vector<ViewSetup>& views) {
-  const glm::ivec2 size(config.width, config.height);
-  const Foveation& foveation = config.accuracy.foveation;
-  CompositePlan plan;
-  double resolution = config.accuracy.resolution;
-  if (foveation.rate > 1 && foveation.fovea_deg > 0.0) {
-    plan.fovea = fovea_layer(config, views);
-    const double fovea =
-        plan.fovea ? double(plan.fovea->extent.x) * plan.fovea->extent.y / (double(size.x) * size.y) : 0.0;
-    const double rate = foveation.rate;
-    if (fovea + 1.0 / (rate * rate) < kWorthwhile) {
-      resolution /= rate;
-    } else {
-      plan.fovea.reset();
-    }
+  return plan_with(config, views, 1.0);
+}
+
+CompositePlan plan_moving_composite(const FrameConfig& config, const std::vector<ViewSetup>& views) {
+  constexpr double kRoom = 1.25;  // a cone 25 degrees aside is as much wider on the picture's plane
+  std::vector<ViewSetup> ahead = views;
+  for (ViewSetup& view : ahead) {
+    view.view.gaze = view.view.head_from_view.orientation * glm::dvec3(0.0, 0.0, -1.0);
   }
-  plan.whole = {layer_config(config, size, resolution), views, std::vector<glm::ivec2>(views.size(), {0, 0}), size};
+  CompositePlan plan = plan_with(config, ahead, kRoom);
+  aim_composite(plan, config, views);
   return plan;
 }
 
-void Compositor::make_room(std::size_t pixels) {
-  if (!out_ || out_->pixels != pixels) {
-    out_.reset();  // the old one goes first, so that both never stand side by side
-    out_ = std::make_unique<Out>(Out{pixels, vk::Buffer(device_, pixels * 8, vk::Memory::device),
-                                     vk::Buffer(device_, pixels * 4, vk::Memory::device)});
+void aim_composite(CompositePlan& plan, const FrameConfig& config, const std::vector<ViewSetup>& views) {
+  plan.whole.views = views;
+  if (plan.fovea) {
+    aim_fovea(*plan.fovea, config, views);
   }
 }
 
-void Compositor::record(vk::Commands& commands, const CompositePlan& plan, const FrameConfig& config,
-                        const std::vector<ViewSetup>& views, const Layers& layers) {
-  constexpr std::array kBindings{vk::Binding::texel_rg32ui, vk::Binding::texel_rg32ui, vk::Binding::storage_buffer,
-                                 vk::Binding::storage_buffer};
-  if (!kernel_) {
-    kernel_.emplace(device_, shaders::composite, kBindings, sizeof(gpu::CompositeData),
-                    std::span<const std::uint32_t>{}, "composite");
-  }
-  make_room(static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height) * views.size());
-  const vk::Buffer& fovea = layers.fovea != nullptr ? layers.fovea->radiance : layers.whole.radiance;
+std::vector<gpu::CompositeData> composite_data(const CompositePlan& plan, const FrameConfig& config,
+                                               const std::vector<ViewSetup>& views) {
+  std::vector<gpu::CompositeData> data;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const gpu::CompositeData data = data_of(plan, config, views[i], i);
-    commands.dispatch(*kernel_, {&layers.whole.radiance, &fovea, &out_->radiance, &out_->display}, vk::bytes_of(data),
-                      (static_cast<std::uint32_t>(config.width) + 7) / 8,
-                      (static_cast<std::uint32_t>(config.height) + 7) / 8);
+    data.push_back(data_of(plan, config, views[i], i));
+  }
+  data.resize(gpu::kMostViews);  // a uniform buffer has its full size
+  return data;
+}
+
+void Compositor::record(vk::Commands& commands, const FrameConfig& config, std::size_t views, const vk::Buffer& data,
+                        const DrawnLayers& layers, const vk::Buffer& radiance, const vk::Buffer& display) {
+  constexpr std::array kBindings{vk::Binding::texel_rg32ui, vk::Binding::texel_rg32ui, vk::Binding::storage_buffer,
+                                 vk::Binding::storage_buffer, vk::Binding::uniform_buffer};
+  constexpr std::uint32_t kGroup = 8;
+  if (!kernel_) {
+    kernel_.emplace(device_, shaders::composite, kBindings, sizeof(std::int32_t), std::span<const std::uint32_t>{},
+                    "composite");
+  }
+  const vk::Buffer& fovea = layers.fovea != nullptr ? layers.fovea->radiance : layers.whole.radiance;
+  commands.barrier();
+  for (std::int32_t view = 0; view < static_cast<std::int32_t>(views); ++view) {
+    commands.dispatch(*kernel_, {&layers.whole.radiance, &fovea, &radiance, &display, &data}, vk::bytes_of(view),
+                      (static_cast<std::uint32_t>(config.width) + kGroup - 1) / kGroup,
+                      (static_cast<std::uint32_t>(config.height) + kGroup - 1) / kGroup);
   }
   commands.timestamp("composite");
 }
 
-RenderedView Compositor::read(const CompositePlan& plan, const FrameConfig& config, const std::vector<ViewSetup>& views,
-                              const Layers& layers, std::size_t index) const {
-  RenderedView view;
-  view.display = read_display(out_->display, config, index);
-  if (config.keep_radiance) {
-    view.radiance = read_radiance(out_->radiance, config, index);
-  }
-  if (!config.keep_wavefront) {
-    return view;
-  }
+WavefrontPlanes composed_wavefront(const CompositePlan& plan, const FrameConfig& config,
+                                   const std::vector<ViewSetup>& views, const DrawnLayers& layers, std::size_t index) {
   const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
-  WavefrontPlanes& planes = view.wavefront;
+  WavefrontPlanes planes;
   for (auto* plane : {&planes.v_hh, &planes.v_hv, &planes.v_vv, &planes.accommodation, &planes.blur, &planes.depth}) {
     plane->resize(pixels);
   }
@@ -242,7 +268,7 @@ RenderedView Compositor::read(const CompositePlan& plan, const FrameConfig& conf
     put_nearest(read_wavefronts(layers.fovea->wavefronts, plan.fovea->config, index), traced(*plan.fovea), planes,
                 config.width, plan.fovea->origin[index], plan.fovea->extent, mostly_fovea);
   }
-  return view;
+  return planes;
 }
 
 }  // namespace render

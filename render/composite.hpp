@@ -5,7 +5,6 @@
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -32,7 +31,12 @@ struct CompositePlan {
 // Maps are always drawn in full.
 [[nodiscard]] bool is_composed(const FrameConfig& config);
 
+// Of views that stay where they are.
 [[nodiscard]] CompositePlan plan_composite(const FrameConfig& config, const std::vector<ViewSetup>& views);
+// For gazes that move: the layers' sizes suit a gaze straight ahead and some way aside; further aside the fovea is
+// smaller. aim_composite says where they lie now.
+[[nodiscard]] CompositePlan plan_moving_composite(const FrameConfig& config, const std::vector<ViewSetup>& views);
+void aim_composite(CompositePlan& plan, const FrameConfig& config, const std::vector<ViewSetup>& views);
 
 // 1 where the fovea's layer is shown alone, 0 where the whole's is; by the angle between a direction and the gaze.
 struct FoveaFade {
@@ -40,32 +44,32 @@ struct FoveaFade {
 };
 [[nodiscard]] FoveaFade fovea_fade(const Foveation& foveation);
 
+// What the kernel is told, kMostViews of them.
+[[nodiscard]] std::vector<gpu::CompositeData> composite_data(const CompositePlan& plan, const FrameConfig& config,
+                                                             const std::vector<ViewSetup>& views);
+
+// Layers drawn as the plan says, all views.
+struct DrawnLayers {
+  const FrameBuffers& whole;
+  const FrameBuffers* fovea;  // null: none
+};
+
 class Compositor {
  public:
-  // Layers drawn as the plan says, all views.
-  struct Layers {
-    const FrameBuffers& whole;
-    const FrameBuffers* fovea;  // null: none
-  };
-
   explicit Compositor(vk::Device& device) : device_(device) {}
 
-  void record(vk::Commands& commands, const CompositePlan& plan, const FrameConfig& config,
-              const std::vector<ViewSetup>& views, const Layers& layers);
-  // After the commands have run.
-  [[nodiscard]] RenderedView read(const CompositePlan& plan, const FrameConfig& config,
-                                  const std::vector<ViewSetup>& views, const Layers& layers, std::size_t index) const;
+  // data: composite_data, read whenever the commands run. radiance may be anything where it is not wanted.
+  void record(vk::Commands& commands, const FrameConfig& config, std::size_t views, const vk::Buffer& data,
+              const DrawnLayers& layers, const vk::Buffer& radiance, const vk::Buffer& display);
 
  private:
-  struct Out {
-    std::size_t pixels;
-    vk::Buffer radiance, display;
-  };
-  void make_room(std::size_t pixels);
-
   vk::Device& device_;
   std::optional<vk::Kernel> kernel_;
-  std::unique_ptr<Out> out_;
 };
+
+// The nearest traced pixel of the layer that a shown one has most of.
+[[nodiscard]] WavefrontPlanes composed_wavefront(const CompositePlan& plan, const FrameConfig& config,
+                                                 const std::vector<ViewSetup>& views, const DrawnLayers& layers,
+                                                 std::size_t index);
 
 }  // namespace render

@@ -140,7 +140,7 @@ void FrameJob::record_double_views(vk::Commands& commands, const vk::Buffer& fro
   }
 }
 
-void FrameJob::record_picture(vk::Commands& commands) {
+void FrameJob::record_picture(vk::Commands& commands, bool shown) {
   if (config_.mode != Mode::dof || variant_.keep_wavefront) {
     record_trace(commands);
   }
@@ -149,8 +149,8 @@ void FrameJob::record_picture(vk::Commands& commands) {
       record_edges(commands);
     }
     record_blur(commands);
-    if (!config_.keep_radiance) {
-      return;  // the blur has encoded too
+    if (!config_.keep_radiance || !shown) {
+      return;  // the blur has encoded too, or nobody asks for it
     }
   }
   if (!encodes_later(config_)) {

@@ -26,8 +26,9 @@ class FrameJob {
   // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
   void record_views(vk::Commands& commands, const vk::Buffer& from);
   void record_double_views(vk::Commands& commands, const vk::Buffer& from);  // double_views(); where they are used
-  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
-  void record_picture(vk::Commands& commands);
+  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end; not shown: linear
+  // radiance is all that is wanted of it.
+  void record_picture(vk::Commands& commands, bool shown = true);
 
   void record_trace(vk::Commands& commands);
   void record_edges(vk::Commands& commands);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "render/composite.hpp"
@@ -43,9 +44,8 @@ struct Renderer::State {
   State(vk::Device& d, const Scene& scene, const RendererConfig& config)
       : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
-  RenderedFrame render_together(const lenses::LensModel& worn, const std::vector<ViewSetup>& views,
+  RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
-    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     return is_composed(config) ? compose(lenses, views, config, progress) : draw(lenses, views, config, progress);
   }
 
@@ -63,19 +63,31 @@ struct Renderer::State {
     if (plan.fovea) {
       add_times(result.stages, drawn(*plan.fovea, fovea_frame).stages);
     }
-    const Compositor::Layers layers{*whole_frame, plan.fovea ? fovea_frame.get() : nullptr};
+    const DrawnLayers layers{*whole_frame, plan.fovea ? fovea_frame.get() : nullptr};
+    const std::size_t pixels = pixels_of(config) * views.size();
+    const vk::Buffer data = filled_buffer(device, composite_data(plan, config, views));
+    const vk::Buffer radiance(device, config.keep_radiance ? pixels * 8 : 8, vk::Memory::device);
+    const vk::Buffer display(device, pixels * 4, vk::Memory::device);
     vk::Commands commands(device);
-    compositor.record(commands, plan, config, views, layers);
+    compositor.record(commands, config, views.size(), data, layers, radiance, display);
     add_times(result.stages, device.run(commands));
     for (std::size_t i = 0; i < views.size(); ++i) {
-      result.views.push_back(compositor.read(plan, config, views, layers, i));
+      RenderedView& view = result.views.emplace_back();
+      view.display = read_display(display, config, i);
+      if (config.keep_radiance) {
+        view.radiance = read_radiance(radiance, config, i);
+      }
+      if (config.keep_wavefront) {
+        view.wavefront = composed_wavefront(plan, config, views, layers, i);
+      }
     }
     return result;
   }
 
   // All views in one submission, but for samples and for a map whose range the picture itself must tell.
-  RenderedFrame draw(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+  RenderedFrame draw(const lenses::LensModel& worn, const std::vector<ViewSetup>& views, const FrameConfig& config,
                      const Progress& progress, bool read_back = true) {
+    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
     FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
@@ -83,7 +95,7 @@ struct Renderer::State {
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
-    job.record_picture(commands);
+    job.record_picture(commands, read_back);
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
       take_samples(job, out, config, result, progress);
@@ -103,9 +115,12 @@ struct Renderer::State {
   }
 
   // Distributed rays until the samples or the target error are reached; results go into `frame`.
-  void take_samples(FrameJob& job, const FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
+  void take_samples(FrameJob& job, FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
                     const Progress& progress) {
-    frame.samples = 0;
+    if (config.samples_before != 0 && config.samples_before != out.samples) {
+      throw std::invalid_argument("the frame before took other samples");
+    }
+    frame.samples = config.samples_before;
     while (frame.samples < config.samples) {
       const int batch = std::min(kSamplesASubmission, config.samples - frame.samples);
       vk::Commands commands(device);
@@ -114,6 +129,7 @@ struct Renderer::State {
       }
       add_times(frame.stages, device.run(commands));
       frame.samples += batch;
+      out.samples = frame.samples;
       if (progress) {
         progress(frame.samples, config.samples);
       }
@@ -139,8 +155,8 @@ struct Renderer::State {
   TraversalChoice choice;  // before the scene: it refuses what the device cannot
   SceneBuffers buffers;
   KernelSet kernels;
-  LensFormCache forms;
   Compositor compositor{device};
+  LensFormCache forms;
   std::unique_ptr<FrameBuffers> frame, whole_frame, fovea_frame;
 };
 
@@ -158,6 +174,9 @@ RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vecto
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);
+  }
+  if (config.samples_before != 0) {
+    throw std::invalid_argument("views that do not fit together cannot go on with their samples");
   }
   // One after the other. A map's range spans them all, so it is found before any is coloured.
   RenderedFrame all;

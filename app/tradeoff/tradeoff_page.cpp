@@ -115,13 +115,13 @@ std::string tradeoff_page(const TradeoffReport& report) {
   }
   body += "</ul>\n<p><img src=\"tradeoff.svg\" alt=\"Error against time, both axes logarithmic\"></p>\n";
   body += format(
-      "<p>The reference traces %d rays a pixel through the real lens in double precision, spread over pupil and pixel "
+      "<p>The reference traces %d rays a pixel through the real lens in %s precision, spread over pupil and pixel "
       "with another pattern than the settings use. Times are the device's own, medians of rounds in which all settings "
       "took turns. RMS error and PSNR compare display values as fractions of full scale. FLIP (Andersson et al. 2020) "
       "is the mean difference that a viewer sees when flipping between the two, 0 to 1, at %.1f pixels a degree. Power "
       "and astigmatism compare each pixel's wavefront at the pupil with the double-precision tracer's for the same "
       "direction and distance: 99 of 100 pixels differ by no more.</p>\n",
-      report.reference_samples, report.pixels_per_degree);
+      report.reference_samples, report.reference_in_double ? "double" : "single", report.pixels_per_degree);
   for (const std::string& reason : report.left_out) {
     body += "<p>Left out: " + html_escaped(reason) + "</p>\n";
   }

@@ -109,7 +109,10 @@ std::string tradeoff_json(const TradeoffReport& report) {
          {"size", {report.width, report.height}},
          {"fov_deg", report.fov_deg},
          {"pixels_per_degree", report.pixels_per_degree},
-         {"reference", {{"samples", report.reference_samples}, {"from_cache", report.reference_kept}}},
+         {"reference",
+          {{"samples", report.reference_samples},
+           {"from_cache", report.reference_kept},
+           {"double_precision", report.reference_in_double}}},
          {"rows", Json::array()}};
   for (const TradeoffRow& row : report.rows) {
     Json r{{"setting", row.setting},

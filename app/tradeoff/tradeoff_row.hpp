@@ -31,6 +31,7 @@ struct TradeoffReport {
   double fov_deg = 0.0, pixels_per_degree = 0.0;
   int reference_samples = 0;
   bool reference_kept = false;            // found in the cache
+  bool reference_in_double = true;        // its lens
   double target_rmse = 0.0;               // that the samples of mode dof are counted for
   std::string accuracy;                   // the setting that the advice begins with
   render::IterationHistogram iterations;  // of every pixel's chief ray in single precision

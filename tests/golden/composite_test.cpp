@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "render/image/image.hpp"
+#include "render/live_frame.hpp"
 #include "render/vk/device.hpp"
 #include "tests/support/lit_scene.hpp"
 
@@ -240,6 +241,31 @@ TEST_F(Composite, BothEyesTogetherAreEachAlone) {
     for (std::size_t i = 0; i < eyes.size(); ++i) {
       const RenderedFrame alone = renderer.render(pair.model, {eyes[i]}, c);
       EXPECT_LT(rms(both.views[i].radiance, alone.views[0].radiance), 0.01) << i;
+    }
+  }
+}
+
+// A picture recorded once and drawn again and again: its fovea has room for gazes aside, and so begins elsewhere.
+TEST_F(Composite, ARunningPictureIsComposedToo) {
+  const render::Scene scene = checks();
+  render::Renderer renderer(*device_, scene);
+  const WornPair pair = worn();
+  const std::vector<render::ViewSetup> eyes{view(pair, 0, {-0.2, 0.0, -1.0}), view(pair, 1, {0.1, -0.1, -1.0})};
+  FrameConfig c = config(Mode::adof);
+  c.keep_radiance = c.keep_wavefront = false;
+  const RenderedFrame full = renderer.render(pair.model, eyes, c);
+  for (const FrameConfig& composed : {reduced(c, 0.5), foveated(c, 5.0, 4)}) {
+    const RenderedFrame expected = renderer.render(pair.model, eyes, composed);
+    render::LiveFrame live(renderer, pair.model, eyes, {.frame = composed, .eyes = 2}, {{}, {}});
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+      const render::Image8 shown = live.read_picture(i);
+      const double psnr_db = render::compare(shown, expected.views[i].display).psnr_db;
+      if (composed.accuracy.resolution < 1.0) {
+        EXPECT_EQ(shown.rgb, expected.views[i].display.rgb) << i;
+      } else {
+        EXPECT_GT(psnr_db, 35.0) << i;
+      }
+      EXPECT_GT(psnr_db, render::compare(shown, full.views[i].display).psnr_db + 6.0) << "less is traced";
     }
   }
 }

@@ -6,6 +6,11 @@
 namespace render {
 namespace {
 
+constexpr Rung lens_rung(std::string_view name, std::string_view subject, std::string_view what,
+                         const LensAccuracy& lens) {
+  return {.name = name, .subject = subject, .what = what, .accuracy = {.lens = lens}};
+}
+
 constexpr Rung resolution_rung(std::string_view name, double resolution, std::string_view what) {
   Accuracy accuracy;
   accuracy.resolution = resolution;
@@ -16,11 +21,6 @@ constexpr Rung foveated_rung(std::string_view name, double fovea_deg, int rate, 
   Accuracy accuracy;
   accuracy.foveation = {.fovea_deg = fovea_deg, .rate = rate};
   return {.name = name, .subject = "foveation", .what = what, .accuracy = accuracy};
-}
-
-constexpr Rung lens_rung(std::string_view name, std::string_view subject, std::string_view what,
-                         const LensAccuracy& lens) {
-  return {.name = name, .subject = subject, .what = what, .accuracy = {.lens = lens}};
 }
 
 constexpr Rung samples_rung(std::string_view name, int samples) {

@@ -97,7 +97,8 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   }
   if (config.accuracy.lens.in_double && variant_.surface_kinds != 0) {
     if (!device.limits().has_float64) {
-      throw vk::DeviceError(device.name() + " has no double precision (shaderFloat64): lens-double cannot be traced there");
+      throw vk::DeviceError(device.name() +
+                            " has no double precision (shaderFloat64): lens-double cannot be traced there");
     }
     double_table_ = filled_buffer(device, lenses.table);
     double_views_ = filled_buffer(device, double_views(views, lenses));

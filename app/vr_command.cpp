@@ -25,6 +25,15 @@ void check_options(const VrOptions& options) {
   if (options.frames) {
     check_range("--frames", *options.frames, 1, kMostFrames, "");
   }
+  if (!options.record.empty()) {
+    check_place(options.record);
+  }
+  if (!options.replay.empty() && !options.scene.compare.empty()) {
+    throw InputError("--replay", "", "holds one pair's eyes; it cannot be given together with --compare");
+  }
+  if (!options.size.empty()) {
+    (void)size_of("--size", options.size);
+  }
   if (!options.screenshot.empty()) {
     if (std::filesystem::path(options.screenshot).extension() != ".png") {
       throw InputError("--screenshot", "", "'" + options.screenshot + "' must end in .png");
@@ -77,6 +86,13 @@ Action add_vr_command(CLI::App& program) {
       ->check(CLI::IsMember({"auto", "local_floor", "stage", "local"}))
       ->capture_default_str();
   command->add_option("--frames", options->frames, "End after this many pictures [until the session ends]");
+  auto* record = command->add_option("--record", options->record,
+                                     "FILE.csv of poses, gaze, pupils and accommodation, a line a picture, and\n"
+                                     "FILE.csv.json of views, rung, pair and events");
+  command
+      ->add_option("--replay", options->replay,
+                   "FILE.csv to draw from, a line a picture: a recording gives the same pictures on the same device")
+      ->excludes(record);
   command->add_option("--screenshot", options->screenshot, "FILE.png of the last picture, left eye | right eye");
   command->add_option("--device", options->device, "Checked only: the headset says which GPU it hangs on");
   command->add_flag("--json", options->json, "Print the numbers as JSON");

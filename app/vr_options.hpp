@@ -20,6 +20,7 @@ struct VrOptions {
   std::string space = "auto";
   std::string device;
   std::string screenshot;
+  std::string record, replay;  // FILE.csv
   std::optional<int> frames;
   bool json = false;
 };

@@ -74,8 +74,9 @@ std::string to_table(const VrReport& report) {
   out << "runtime  " << report.runtime << "\nheadset  " << report.headset << "\ndevice   " << report.device
       << "\nspace    " << report.space << "\nimages   " << report.width << 'x' << report.height << " each, and "
       << report.guard_px << " pixels around them\ngaze     " << sources_text(report) << "\nframes   " << report.shown
-      << " shown, " << report.skipped << " without a picture\n\n";
-  out << std::fixed << std::setprecision(3) << "                      ms median      p99\n";
+      << " shown, " << report.skipped << " without a picture\n";
+  out << to_table(report.findings);
+  out << std::fixed << std::setprecision(3) << "\n                      ms median      p99\n";
   print(out, "host", report.host);
   print(out, "device", report.device_stages);
   return out.str();
@@ -89,6 +90,7 @@ std::string to_json(const VrReport& report) {
                                     {"size", std::to_string(report.width) + "x" + std::to_string(report.height)},
                                     {"guard_px", report.guard_px},
                                     {"gaze_frames", report.gaze_sources},
+                                    {"findings", to_json_array(report.findings)},
                                     {"frames_shown", report.shown},
                                     {"frames_skipped", report.skipped},
                                     {"host_ms", json_of(report.host)},

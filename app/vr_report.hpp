@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/viewer_report.hpp"
+
 namespace app {
 
 // Times of one kind, ms; the last kMost of them are kept, so that a long session needs no more memory than a short one.
@@ -28,6 +30,7 @@ struct VrReport {
   int width = 0, height = 0;  // of each eye's image
   int guard_px = 0;
   std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
+  std::vector<ViewerFinding> findings;                 // what the person inside should know
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order
   std::vector<std::pair<std::string, TimeRing>> device_stages;

@@ -1,20 +1,22 @@
 #include "app/vr_run.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/geometric.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
 
 #include "app/device.hpp"
 #include "app/headset_device.hpp"
 #include "app/live_wearer.hpp"
-#include "app/mode_option.hpp"
-#include "app/option_values.hpp"
+#include "app/vr_recording.hpp"
+#include "app/vr_setup.hpp"
 #include "render/guard_band.hpp"
 #include "render/image/png.hpp"
-#include "render/ladder.hpp"
 #include "render/live_frame.hpp"
-#include "tracking/input_error.hpp"
 #include "xr/actions.hpp"
 #include "xr/frame_loop.hpp"
 #include "xr/gaze_input.hpp"
@@ -53,74 +55,14 @@ class StopOnSignal {
   std::array<struct sigaction, 2> old_{};
 };
 
-// A running map cannot take its range from the picture: colours would change with every turn of the head.
-render::MapRange range_of(const VrOptions& options, Mode mode) {
-  if (!options.range.empty()) {
-    const auto v = numbers_of("--range", options.range, 2, "LO,HI, such as 0,3");
-    if (!(v[0] < v[1])) {
-      throw tracking::InputError("--range", "", "'" + options.range + "' must have LO below HI");
-    }
-    return {v[0], v[1]};
-  }
-  switch (mode) {
-    case Mode::astigmatism:
-      return {0.0, 3.0};
-    case Mode::accommodation:
-      return {0.0, 4.0};
-    case Mode::blur:
-      return {0.0, 20.0};
-    default:
-      return {-3.0, 3.0};
-  }
-}
-
-xr::SpaceChoice space_of(const std::string& name) {
-  return name == "local_floor" ? xr::SpaceChoice::local_floor
-         : name == "stage"     ? xr::SpaceChoice::stage
-         : name == "local"     ? xr::SpaceChoice::local
-                               : xr::SpaceChoice::automatic;
-}
-
-std::string name_of(XrReferenceSpaceType type) {
-  return type == XR_REFERENCE_SPACE_TYPE_STAGE   ? "stage"
-         : type == XR_REFERENCE_SPACE_TYPE_LOCAL ? "local"
-                                                 : "local_floor";
-}
-
-// The scene's camera is where a wearer starts: the runtime's floor is the scene's, and its centre lies below the
-// camera. A space without a floor has its origin where the head was, so that is put at the camera.
-Pose world_from_space(const SceneOptions& options, const render::Scene& scene, XrReferenceSpaceType type) {
-  Pose start = start_pose(options, scene);
-  const glm::dvec3 ahead = start.direction({0.0, 0.0, -1.0});
-  start.orientation = tracking::orientation_from_yaw_pitch(std::atan2(ahead.x, -ahead.z), 0.0);
-  if (xr::is_on_floor(type)) {
-    start.position.y = 0.0;
-  }
-  return start;
-}
-
-// One size for both eyes: the larger of what is recommended for each.
-std::array<int, 2> size_of_images(const VrOptions& options, const xr::Instance& instance) {
-  if (!options.size.empty()) {
-    return size_of("--size", options.size);
-  }
-  const auto sizes = xr::recommended_sizes(instance);
-  return {std::max(sizes[0][0], sizes[1][0]), std::max(sizes[0][1], sizes[1][1])};
-}
-
-std::vector<std::string> wanted_extensions() {
-  std::vector<std::string> names = xr::gaze_extensions();
-  names.emplace_back(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME);
-  return names;
-}
-
 class VrRun {
  public:
   explicit VrRun(const VrOptions& options)
       : options_(options),
+        replay_(options.replay.empty() ? std::nullopt : std::optional<SessionReplay>(options.replay)),
         scene_(render::read_gltf(options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene)),
         wearer_(make_render_setup(scene_options(options), scene_), scene_),
-        config_(frame_config(options)),
+        config_(live_config(options)),
         instance_({.wanted_extensions = wanted_extensions()}),
         device_(open_headset_device(
             instance_, {.device = options.device, .validation = kValidation, .pipeline_cache = pipeline_cache_file()})),
@@ -128,7 +70,7 @@ class VrRun {
         session_(instance_, graphics_of(device_)),
         bindings_(instance_),
         gaze_actions_(instance_, bindings_),
-        loop_(session_, {.space = space_of(options.space), .size = size_of_images(options, instance_)}),
+        loop_(session_, {.space = space_of(options.space), .size = size_of_images(options, replay_, instance_)}),
         world_from_space_(world_from_space(options.scene, scene_, loop_.space().type())) {
     bindings_.attach(session_);
     gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
@@ -143,21 +85,19 @@ class VrRun {
     report_.space = name_of(loop_.space().type());
     report_.width = config_.frame.width;
     report_.height = config_.frame.height;
+    if (!options.record.empty()) {
+      start_recording();
+    }
   }
 
   VrReport run() {
-    while (const auto frame = loop_.next()) {
-      stop_if_wanted();
-      if (frame->should_render && !finished()) {
-        show(*frame);
-      } else {
-        loop_.skip(*frame);
-        ++report_.skipped;
+    try {
+      show_frames();
+    } catch (const xr::LostError&) {
+      if (recorder_) {
+        recorder_->event(last_time_, "session lost");
       }
-      if (finished() && !exit_requested_) {
-        exit_requested_ = true;
-        session_.request_exit();
-      }
+      throw;
     }
     finish();
     return report_;
@@ -170,21 +110,51 @@ class VrRun {
     return scene;
   }
 
-  static render::LiveConfig frame_config(const VrOptions& options) {
-    render::LiveConfig config;
-    config.frame.mode = mode_of(options.mode);
-    config.frame.accuracy = render::find_rung(options.picture.accuracy)->accuracy;
-    config.frame.threshold_px = options.picture.threshold();
-    config.frame.exposure = options.picture.exposure;
-    config.frame.samples = options.samples;
-    config.frame.colour_map = options.colour_map == "hsv" ? 0 : 1;
-    if (render::is_map(config.frame.mode)) {
-      config.frame.range = range_of(options, config.frame.mode);
+  // What the person inside should know, before the first picture and again in the report. The headset's lenses stand
+  // apart as the views do, the wearer's spectacles as the wearer's pupils would.
+  void warn(const xr::Frame& frame) {
+    const RenderSetup& setup = wearer_.setup();
+    report_.findings = viewer_report(setup);
+    const double apart = glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position);
+    std::array<double, 2> power{};
+    for (const std::size_t i : {0U, 1U}) {
+      power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);
     }
-    return config;
+    if (const auto finding = lenses::distance_finding(setup.wearer, apart, power)) {
+      report_.findings.push_back({"", *finding});
+    }
+    std::cerr << to_table(report_.findings);
   }
 
-  [[nodiscard]] bool finished() const { return options_.frames && report_.shown >= *options_.frames; }
+  void show_frames() {
+    while (const auto frame = loop_.next()) {
+      stop_if_wanted();
+      last_time_ = xr::seconds(frame->display_time);
+      if (frame->should_render && !finished()) {
+        show(*frame);
+      } else {
+        loop_.skip(*frame);
+        ++report_.skipped;
+      }
+      if (finished() && !exit_requested_) {
+        exit_requested_ = true;
+        session_.request_exit();
+      }
+    }
+  }
+
+  [[nodiscard]] bool finished() const {
+    return (options_.frames && report_.shown >= *options_.frames) ||
+           (replay_ && static_cast<std::size_t>(report_.shown) >= replay_->frames());
+  }
+
+  void start_recording() {
+    SessionRecord record;
+    record.device = device_.name();
+    record.size = {config_.frame.width, config_.frame.height};
+    record.options = recorded_options(options_);
+    recorder_.emplace(options_.record, std::move(record));
+  }
 
   bool stop_if_wanted() {
     if (StopOnSignal::wanted() && !exit_requested_) {
@@ -195,17 +165,28 @@ class VrRun {
   }
 
   void place(const xr::Frame& frame) {
-    Sighting sighting;
-    sighting.world_from_head = world_from_space_ * frame.space_from_head;
-    const tracking::FollowedGaze gaze = gaze_.step(xr::seconds(frame.display_time), sighting.world_from_head,
-                                                   gaze_input_->read(loop_.view_space(), frame.display_time));
-    sighting.gaze = gaze.target[0] + gaze.target[1];
-    ++report_.gaze_sources[std::string(xr::source_name(gaze))];
+    HeadAndViews where;
+    where.world_from_head = world_from_space_ * frame.space_from_head;
     for (const Side side : {Side::right, Side::left}) {
       const auto i = static_cast<std::size_t>(side);
-      sighting.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
+      where.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
     }
-    wearer_.place(sighting);
+    if (replay_) {
+      replay_frame(wearer_, replay_->frame(static_cast<std::size_t>(report_.shown)), where);
+      ++report_.gaze_sources["replay"];
+      return;
+    }
+    const double time = xr::seconds(frame.display_time);
+    const auto sample = gaze_input_->read(loop_.view_space(), frame.display_time);
+    wearer_.step(time, where, sample);
+    ++report_.gaze_sources[tracking::name(wearer_.state().source)];
+    if (recorder_) {
+      if (frame.new_from_old) {
+        recorder_->event(time, "recentred");
+      }
+      recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where),
+                       options_.picture.accuracy, wearer_.setup().pairs.front().name);
+    }
   }
 
   // What is recorded for the device depends on the lenses and on how wide the blur can be, and on nothing that moves.
@@ -246,6 +227,7 @@ class VrRun {
     place(frame);
     mark("place");
     if (!live_) {
+      warn(frame);
       make_live();
       last = Clock::now();
     }
@@ -293,6 +275,7 @@ class VrRun {
 
   const VrOptions& options_;
   StopOnSignal signals_;
+  std::optional<SessionReplay> replay_;
   render::Scene scene_;
   LiveWearer wearer_;
   render::LiveConfig config_;
@@ -303,11 +286,12 @@ class VrRun {
   xr::ActionBindings bindings_;
   xr::GazeActions gaze_actions_;
   std::unique_ptr<xr::GazeInput> gaze_input_;
-  tracking::GazeFollower gaze_;
+  std::optional<SessionRecorder> recorder_;
   xr::FrameLoop loop_;
   Pose world_from_space_;
   std::unique_ptr<render::LiveFrame> live_;
   VrReport report_;
+  double last_time_ = 0.0;  // s, of the last frame
   bool exit_requested_ = false;
 };
 

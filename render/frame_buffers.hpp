@@ -56,9 +56,15 @@ struct FrameBuffers {
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
       blocks, blur_tiles, blur_widest, blur_reaches, blur_levels, blur_nearest, blur_squares, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
+  int samples = 0;  // in sums
 };
 
-// View `index` of a frame of config's size.
+// View `index` of a frame of config's size: one buffer of it, or all that the settings keep.
+[[nodiscard]] Image8 read_display(const vk::Buffer& display, const FrameConfig& config, std::size_t index);
+[[nodiscard]] std::vector<float> read_radiance(const vk::Buffer& radiance, const FrameConfig& config,
+                                               std::size_t index);
+[[nodiscard]] WavefrontPlanes read_wavefronts(const vk::Buffer& wavefronts, const FrameConfig& config,
+                                              std::size_t index);
 [[nodiscard]] RenderedView read_view(const FrameBuffers& frame, const FrameConfig& config, std::size_t index);
 
 }  // namespace render

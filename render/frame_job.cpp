@@ -48,10 +48,6 @@ bool keeps_transfer(const LensAccuracy& lens) {
   return lens.form != LensForm::exact || lens.in_double || lens.spacing > 1;
 }
 
-bool serves_samples(const LensAccuracy& lens) {
-  return lens.form != LensForm::field && (lens.form != LensForm::exact || lens.spacing == 1);
-}
-
 FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views, Traversal traversal) {
   const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
   const bool transfers = keeps_transfer(config.accuracy.lens);
@@ -80,6 +76,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
       table_(filled_buffer(device, lenses::to_float(lenses.table))),
       views_(filled_buffer(device, view_data(lenses, views))),
       corners_(corner_grid(config.accuracy.lens, config.width, config.height)) {
+  config.accuracy.lens.validate();
   std::vector<lenses::f64::LensData> worn;
   for (const ViewSetup& view : views) {
     worn.push_back(lenses.lens[view.lens]);
@@ -106,7 +103,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (corners_.rays() > 0) {
     std::vector<std::byte> key;
     if (config.accuracy.lens.form == LensForm::field) {
-      key = corner_key(corners_, view_data(lenses, views), lenses::to_float(lenses.table));
+      key = corner_key(config.accuracy.lens, corners_, view_data(lenses, views), lenses::to_float(lenses.table));
     }
     trace_corners_ = key.empty() || key != out_.corners_of;
     out_.corners_of = std::move(key);
@@ -136,7 +133,14 @@ void FrameJob::record_views(vk::Commands& commands, const vk::Buffer& from) {
   commands.barrier();
 }
 
-void FrameJob::record_picture(vk::Commands& commands) {
+void FrameJob::record_double_views(vk::Commands& commands, const vk::Buffer& from) {
+  if (double_views_) {
+    commands.copy(from, *double_views_, double_views_->bytes());
+    commands.barrier();
+  }
+}
+
+void FrameJob::record_picture(vk::Commands& commands, bool shown) {
   if (config_.mode != Mode::dof || variant_.keep_wavefront) {
     record_trace(commands);
   }
@@ -145,8 +149,8 @@ void FrameJob::record_picture(vk::Commands& commands) {
       record_edges(commands);
     }
     record_blur(commands);
-    if (!config_.keep_radiance) {
-      return;  // the blur has encoded too
+    if (!config_.keep_radiance || !shown) {
+      return;  // the blur has encoded too, or nobody asks for it
     }
   }
   if (!encodes_later(config_)) {
@@ -203,7 +207,7 @@ void FrameJob::aim_between_corners(vk::Commands& commands) {
     commands.barrier();
   }
   dispatch_view(commands, kernels_.get(Stage::between, variant_),
-                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.transfers, &out_.corners}));
+                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.corners, &out_.transfers}));
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {

@@ -25,8 +25,10 @@ class FrameJob {
 
   // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
   void record_views(vk::Commands& commands, const vk::Buffer& from);
-  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
-  void record_picture(vk::Commands& commands);
+  void record_double_views(vk::Commands& commands, const vk::Buffer& from);  // double_views(); where they are used
+  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end; not shown: linear
+  // radiance is all that is wanted of it.
+  void record_picture(vk::Commands& commands, bool shown = true);
 
   void record_trace(vk::Commands& commands);
   void record_edges(vk::Commands& commands);
@@ -71,17 +73,13 @@ class FrameJob {
 // Whether samples or a map's range come between the picture's trace and its encoding.
 [[nodiscard]] bool encodes_later(const FrameConfig& config);
 
-// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
-// them where each pixel has a focus of its own.
+// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go
+// before them where each pixel has a focus of its own.
 [[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
 
 // Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
 // to know the lens's form.
 [[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
-
-// Whether a lens of this accuracy has rays for the samples of mode dof: one that is interpolated between chief rays has
-// none.
-[[nodiscard]] bool serves_samples(const LensAccuracy& lens);
 
 // What a frame of these views needs. traversal: not automatic.
 [[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views,

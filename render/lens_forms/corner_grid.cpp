@@ -26,17 +26,18 @@ CornerGrid corner_grid(const LensAccuracy& lens, int width, int height) {
   return {};
 }
 
-std::vector<std::byte> corner_key(const CornerGrid& grid, const std::vector<gpu::ViewData>& views,
-                                  const std::vector<glm::vec4>& table) {
+std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& grid,
+                                  const std::vector<gpu::ViewData>& views, const std::vector<glm::vec4>& table) {
   std::vector<std::byte> key;
+  append(key, lens.iterations);
   append(key, grid.spacing);
   append(key, grid.count);
   for (const gpu::ViewData& view : views) {
     // Not where the eye stands in the world, what it accommodates to, or how much light the lens lets through.
     append(key, view.lens);
     append(key, view.eye.pupil.y);
-    for (const glm::vec4& part : {view.picture_x, view.picture_y, view.picture_z, view.tangents, view.gaze,
-                                  view.virtual_image}) {
+    for (const glm::vec4& part :
+         {view.picture_x, view.picture_y, view.picture_z, view.tangents, view.gaze, view.virtual_image}) {
       append(key, part);
     }
   }

@@ -1,6 +1,6 @@
 // Corners of squares of a picture, whose rays through the lens stand for those of the pixels between them
-// (shaders/corners.comp.glsl, shaders/between.comp.glsl): on a grid of pixels traced anew for every frame, or as a field
-// over the view that is kept while eye, lens and picture stay as they are (Kakimoto et al. 2007, 2010).
+// (shaders/corners.comp.glsl, shaders/between.comp.glsl): on a grid of pixels traced anew for every frame, or as a
+// field over the view that is kept while eye, lens and picture stay as they are (Kakimoto et al. 2007, 2010).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,8 @@ struct CornerGrid {
 [[nodiscard]] CornerGrid corner_grid(const LensAccuracy& lens, int width, int height);
 
 // All that the rays at a field's corners depend on: two frames with the same key have the same field.
-[[nodiscard]] std::vector<std::byte> corner_key(const CornerGrid& grid, const std::vector<gpu::ViewData>& views,
+[[nodiscard]] std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& grid,
+                                                const std::vector<gpu::ViewData>& views,
                                                 const std::vector<glm::vec4>& table);
 
 }  // namespace render

@@ -60,10 +60,10 @@ void main() {
     ivec2 cell = min(ivec2(place), ivec2(frame.corners.zw) - 2);
     vec2 within = place - vec2(cell);
     int code = corner_code(cell);
-    if (!alike(cell, code)) {
+    ray.status = code % kCornerStatusBits;
+    if (!alike(cell, code) || ray.status == kStatusUnsettled) {
       APPEND(mixed_pixels, uint(at))
     }
-    ray.status = code % kCornerStatusBits;
     if (ray.status == kStatusOk) {
       ray.line.start = between(cell, within, 0).xyz;
       ray.line.direction_object = normalize(between(cell, within, 1).xyz);

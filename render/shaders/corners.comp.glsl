@@ -36,9 +36,15 @@ void main() {
   if (ray.status == kStatusOk && LENS_USED && view.lens.glass.w != 0.0) {
     code += kCornerStatusBits * segments_met(view.lens, ray.line.path);
   }
+  // Slopes against the picture's axis: those of a bare eye are linear over the picture. A ray so steep that they are of
+  // no use stands for no other.
+  float ahead = -dot(ray.line.direction_object, view.picture_z.xyz);
+  if (ray.status == kStatusOk && ahead < 0.05) {
+    code = kStatusUnsettled;
+  }
   int at = kCornerTexels * ((eye * count.y + corner.y) * count.x + corner.x);
   corners[at] = vec4(ray.line.start, float(code));
-  corners[at + 1] = vec4(ray.line.direction_object, 0.0);
+  corners[at + 1] = vec4(ray.line.direction_object / max(ahead, 0.05), 0.0);
   corners[at + 2] = vec4(m.a[0], m.a[1]);
   corners[at + 3] = vec4(m.b[0], m.b[1]);
   corners[at + 4] = vec4(m.c[0], m.c[1]);

@@ -39,6 +39,9 @@ PixelRay found_ray(ViewData view, vec3 direction, int at) {
   PixelRay ray = unseen_ray(found_line(view, turn, direction, origin, towards));
   int beside = LENS_USED && view.lens.glass.w != 0.0 ? kStatusMissBack : kStatusOk;
   ray.status = towards.w > 0.0 ? kStatusOk : towards.w < 0.0 ? int(-towards.w) : beside;
+  if (ray.status != kStatusOk) {
+    ray.line.direction_object = ray.line.direction;  // there was no lens to follow
+  }
   if (TRANSFER_IS_KEPT && towards.w > 0.0) {
     ray.transfer = kept_transfer(at);
     ray.across = upright_axis(ray.line.e_h, ray.line.direction_object);

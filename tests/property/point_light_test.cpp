@@ -34,8 +34,8 @@ class PointLightTest : public testing::Test {
   inline static render::Renderer* renderer_ = nullptr;
 };
 
-// The image of one point is where the pupil's points s come to lie: R s. A disc of diameter a has the variance (a/4)^2 in
-// every direction. 256 samples for each of the lamp's 64 pixels are 16,000 rays: were they independent, light and
+// The image of one point is where the pupil's points s come to lie: R s. A disc of diameter a has the variance (a/4)^2
+// in every direction. 256 samples for each of the lamp's 64 pixels are 16,000 rays: were they independent, light and
 // variances would be good to 0.8 %.
 TEST_F(PointLightTest, HasThePupilsMomentsAtEveryResidualAndAxis) {
   const auto pair = support::bare_pair();
@@ -53,8 +53,8 @@ TEST_F(PointLightTest, HasThePupilsMomentsAtEveryResidualAndAxis) {
   }
 }
 
-// The same through a lens, whose astigmatism is not along the eye's: what counts is their sum. The lamp's own size is that
-// of its image, which chief rays in double precision tell.
+// The same through a lens, whose astigmatism is not along the eye's: what counts is their sum. The lamp's own size is
+// that of its image, which chief rays in double precision tell.
 TEST_F(PointLightTest, HasThePupilsMomentsThroughASpherocylindricalLens) {
   lenses::Lens lens;
   lens.index = 1.5;

@@ -35,20 +35,20 @@ struct DefocusView {
 };
 
 inline constexpr std::array kDefocusViews{
-    DefocusView{"text_near", "room", "presbyopia", 0, 62, "", "near_card", {1.5, 0}, 6, 42},
-    DefocusView{"text_far", "room", "emmetropia", -3.0, 35, "", "etdrs_chart", {0, 0.5}, 4.5, 42},
-    DefocusView{"clock_dial", "room", "astigmatism", 0, 35, "", "clock_dial", {0, 0}, 4.5, 42},
+    DefocusView{"text_near", "room", "presbyopia", 0, 62, "", "near_card", {1.5, 0}, 6, 50},
+    DefocusView{"text_far", "room", "emmetropia", -3.0, 35, "", "etdrs_chart", {0, 0.5}, 4.5, 50},
+    DefocusView{"clock_dial", "room", "astigmatism", 0, 35, "", "clock_dial", {0, 0}, 4.5, 50},
     DefocusView{
         "progressive_rim", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "window", {-2, 1}, 7.5, 38, 12},
     DefocusView{
-        "progressive_corridor", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "screen", {2, 0}, 6, 41},
-    DefocusView{"blurred_before_sharp", "layers", "emmetropia", 0, 20, "", "far", {0, 0}, 3.75, 35},
-    DefocusView{"sharp_before_blurred", "layers", "emmetropia", 0, 20, "", "near", {0, 0}, 3.75, 35},
-    DefocusView{"both_blurred", "layers", "presbyopia", -1.5, 62, "", "far", {0, 0}, 3, 35},
-    DefocusView{"lamps", "lamps", "emmetropia", 0, 20, "", "near", {0, 0}, 3, 38},
-    DefocusView{"minus_lens", "room", "myopia", 0, 62, "myopia", "phone", {0, 0}, 10.5, 40},
-    DefocusView{"plus_lens", "room", "hyperopia", 0, 62, "hyperopia", "near_card", {-1, 1.5}, 7.5, 40},
-    DefocusView{"reading_room", "room", "presbyopia", -2.5, 62, "", "screen", {9, 12}, 13.5, 40},
+        "progressive_corridor", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "screen", {2, 0}, 6, 45},
+    DefocusView{"blurred_before_sharp", "layers", "emmetropia", 0, 20, "", "far", {0, 0}, 3.75, 36},
+    DefocusView{"sharp_before_blurred", "layers", "emmetropia", 0, 20, "", "near", {0, 0}, 3.75, 35.5},
+    DefocusView{"both_blurred", "layers", "presbyopia", -1.5, 62, "", "far", {0, 0}, 3, 36.5},
+    DefocusView{"lamps", "lamps", "emmetropia", 0, 20, "", "near", {0, 0}, 3, 40},
+    DefocusView{"minus_lens", "room", "myopia", 0, 62, "myopia", "phone", {0, 0}, 10.5, 49},
+    DefocusView{"plus_lens", "room", "hyperopia", 0, 62, "hyperopia", "near_card", {-1, 1.5}, 7.5, 49},
+    DefocusView{"reading_room", "room", "presbyopia", -2.5, 62, "", "screen", {9, 12}, 13.5, 42},
 };
 
 // The scenes above and their renderers, made when first asked for.

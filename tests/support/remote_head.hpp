@@ -1,5 +1,5 @@
-// Tells Monado's remote headset where head and eyes are. Its hub listens on every address, so the test moves into a
-// network namespace of its own first.
+// Tells Monado's remote headset where head and eyes are, and what the hands press. Its hub listens on every address, so
+// the test moves into a network namespace of its own first.
 #pragma once
 
 #include <arpa/inet.h>
@@ -65,6 +65,26 @@ struct RemoteHead {
   std::array<std::uint8_t, 3> padding{};
 };
 
+// A controller of the same headset, an Index one, as the packet has it.
+struct RemoteHand {
+  RemoteHead::Pose pose;
+  RemoteHead::Vector linear_velocity, angular_velocity;
+  std::array<float, 5> curl{};
+  float trigger = 0, squeeze = 0, squeeze_force = 0;
+  std::array<float, 2> thumbstick{};
+  float trackpad_force = 0;
+  std::array<float, 2> trackpad{};
+  bool hand_tracked = false, active = true;
+  bool system_click = false, system_touch = false, a_click = false, a_touch = false, b_click = false, b_touch = false;
+  bool trigger_click = false, trigger_touch = false, thumbstick_click = false, thumbstick_touch = false;
+  bool trackpad_touch = false;
+  std::array<bool, 3> padding{};
+};
+
+struct RemoteHands {
+  RemoteHand left, right;
+};
+
 class RemoteHub {
  public:
   RemoteHub() { connect(); }
@@ -76,25 +96,34 @@ class RemoteHub {
   void tell(const RemoteHead& head) {
     Packet packet = reset_;
     packet.head = head;
-    write(packet);
-    const auto stop = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    do {
-      ::close(socket_);
-      connect();
-      if (std::memcmp(&latest_.head, &packet.head, sizeof(RemoteHead)) == 0) {
-        return;
-      }
-    } while (std::chrono::steady_clock::now() < stop);
-    throw std::runtime_error("the remote hub does not take a pose");
+    send(packet);
+  }
+  void tell(const RemoteHands& hands) {
+    Packet packet = reset_;
+    packet.hands = hands;
+    send(packet);
   }
 
  private:
   struct Packet {
     std::uint64_t header;
     RemoteHead head;
-    std::array<std::uint8_t, 240> controllers;
+    RemoteHands hands;
   };
   static_assert(sizeof(Packet) == 376);
+
+  void send(const Packet& packet) {
+    write(packet);
+    const auto stop = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    do {
+      ::close(socket_);
+      connect();
+      if (std::memcmp(&latest_, &packet, sizeof(packet)) == 0) {
+        return;
+      }
+    } while (std::chrono::steady_clock::now() < stop);
+    throw std::runtime_error("the remote hub does not take a pose");
+  }
 
   void connect() {
     const auto stop = std::chrono::steady_clock::now() + std::chrono::seconds(60);

@@ -22,7 +22,9 @@ inline Spread spread_of(std::vector<double> values) {
     return {};
   }
   std::ranges::sort(values);
-  const auto at = [&](double part) { return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))]; };
+  const auto at = [&](double part) {
+    return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+  };
   return {at(0.5), at(0.99), values.back()};
 }
 
@@ -48,7 +50,8 @@ struct ReferencePicture {
     for (int y = 0; y < size; ++y) {
       for (int x = 0; x < size; ++x) {
         const auto ray = reference_pixel(pair, view, pixel_direction(view, x, y, size, size));
-        const auto record = f64::trace_record(f64::Table{pair.model.table}, pair.model.lens[view.lens], view.eye, ray.ray);
+        const auto record =
+            f64::trace_record(f64::Table{pair.model.table}, pair.model.lens[view.lens], view.eye, ray.ray);
         pixels.push_back({record.status.x, ray.start, ray.direction, glm::dvec3(record.vergence), false});
       }
     }
@@ -69,7 +72,8 @@ struct ReferencePicture {
 // An empty scene on a device; what frames of rungs share.
 struct RungDevice {
   render::vk::Device device;
-  render::SceneBuffers scene{device, patch_scene({Patch{{-1.0F, -1.0F, 50.0F}, {2.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 0.0F}, 1.0F}})};
+  render::SceneBuffers scene{device,
+                             patch_scene({Patch{{-1.0F, -1.0F, 50.0F}, {2.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 0.0F}, 1.0F}})};
   render::KernelSet kernels{device};
 };
 
@@ -80,11 +84,16 @@ class RungFrame {
             int size, render::Traversal traversal = render::Traversal::tile)
       : device_(shared.device),
         config_(config_of(lens, size)),
-        traversal_(traversal),
-        out_(device_, render::buffers_for(config_, 1, traversal)),
-        job_(device_, shared.scene, shared.kernels, out_, forms_.in_form(pair.model, lens), {view}, config_, traversal),
+        out_(device_, render::buffers_for(config_, {view}, traversal)),
         commands_(device_) {
-    job_.record_trace(commands_);
+    // The second frame of a running picture is the one to look at: a field is known by then.
+    const auto& model = forms_.in_form(pair.model, lens);
+    render::vk::Commands first(device_);
+    render::FrameJob(device_, shared.scene, shared.kernels, out_, model, {view}, config_, traversal)
+        .record_trace(first);
+    device_.run(first);
+    render::FrameJob(device_, shared.scene, shared.kernels, out_, model, {view}, config_, traversal)
+        .record_trace(commands_);
   }
 
   std::vector<render::vk::StageTime> run() { return device_.run(commands_); }
@@ -103,9 +112,7 @@ class RungFrame {
         errors.finite = errors.finite && std::isfinite(v.x + v.y + v.z + v.w);
       }
       const float told = directions[i].w;
-      const int status = told > 0.0F   ? f64::kStatusOk
-                         : told < 0.0F ? static_cast<int>(-told)
-                                       : f64::kStatusMissBack;
+      const int status = told > 0.0F ? f64::kStatusOk : told < 0.0F ? static_cast<int>(-told) : f64::kStatusMissBack;
       if (status != expected.status) {
         ++errors.status_differs;
         errors.status_differs_inside += expected.inside ? 1 : 0;
@@ -141,10 +148,8 @@ class RungFrame {
 
   render::vk::Device& device_;
   render::FrameConfig config_;
-  render::Traversal traversal_;
   render::LensFormCache forms_;
   render::FrameBuffers out_;
-  render::FrameJob job_;
   render::vk::Commands commands_;
 };
 

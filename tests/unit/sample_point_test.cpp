@@ -1,4 +1,5 @@
-// The points of pixel and pupil that distributed rays take: evenly spread, a pixel's own, and their error told honestly.
+// The points of pixel and pupil that distributed rays take: evenly spread, a pixel's own, and their error told
+// honestly.
 #include "render/sample_point.hpp"
 
 #include <gtest/gtest.h>
@@ -78,9 +79,10 @@ TEST(SamplePattern, IsUncorrelatedBetweenPixelsAndSequences) {
   glm::dvec4 with_neighbour(0.0), with_sequence(0.0);
   for (std::uint32_t y = 0; y < 128; ++y) {
     for (std::uint32_t x = 0; x < 128; ++x) {
-      const auto within = [](const glm::vec4& p) {  // the pupil's shared sixteenth, so that only what is a pixel's own counts
-        return glm::dvec4(glm::fract(4.0F * p.x), glm::fract(4.0F * p.y), p.z, p.w) - 0.5;
-      };
+      const auto within =
+          [](const glm::vec4& p) {  // the pupil's shared sixteenth, so that only what is a pixel's own counts
+            return glm::dvec4(glm::fract(4.0F * p.x), glm::fract(4.0F * p.y), p.z, p.w) - 0.5;
+          };
       const glm::dvec4 here = within(gpu::sample_pattern(first, 40, {x, y}, seed));
       with_neighbour += here * within(gpu::sample_pattern(first, 40, {x + 1, y}, seed));
       with_sequence += here * within(gpu::sample_pattern(second, 41, {x, y}, seed));

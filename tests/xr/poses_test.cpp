@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
@@ -95,6 +96,39 @@ TEST_F(Headset, PosesAndFieldsOfViewComeBackAsTheyWereSent) {
       EXPECT_LT(difference(view.fov, sent.fov), 1e-6) << i;
     }
   }
+  program.loop.skip(*frame);
+  program.leave();
+}
+
+// The user recentres: LOCAL's origin moves to where the head is, from an announced time on. (Monado does not say how
+// far.)
+TEST_F(Headset, RecentringMovesTheSpaceAtItsTime) {
+  const support::Monado monado({.remote = true});
+  support::RemoteHub hub;
+  RemoteHead head;
+  const Pose in_room{glm::angleAxis(0.6, glm::dvec3(0.0, 1.0, 0.0)), {0.5, 1.4, -0.3}};
+  head.head = remote(in_room);
+  hub.tell(head);
+  HeadsetProgram program({.space = xr::SpaceChoice::local, .size = std::array{64, 64}});
+  auto frame = program.next_visible();
+  ASSERT_TRUE(frame);
+  const Pose before = frame->space_from_head;
+  ASSERT_EQ(std::system(VERGENCE_MONADO "/bin/monado-ctl -c >/dev/null 2>&1"), 0);
+  std::optional<Pose> new_from_old;
+  for (int i = 0; i < 200 && !new_from_old; ++i) {
+    program.loop.skip(*frame);
+    frame = program.loop.next();
+    ASSERT_TRUE(frame);
+    new_from_old = frame->new_from_old;
+    if (!new_from_old) {
+      EXPECT_LT(difference(frame->space_from_head, before), 1e-5) << "moved before it was announced to";
+    }
+  }
+  ASSERT_TRUE(new_from_old);
+  // LOCAL looks where the head does, level, from where it is.
+  const glm::dvec3 ahead = frame->space_from_head.direction({0.0, 0.0, -1.0});
+  EXPECT_LT(glm::length(ahead - glm::dvec3(0.0, 0.0, -1.0)), 1e-5);
+  EXPECT_LT(std::abs(frame->space_from_head.position.x) + std::abs(frame->space_from_head.position.z), 1e-5);
   program.loop.skip(*frame);
   program.leave();
 }

@@ -96,8 +96,10 @@ TEST(SessionLife, ValidationLayersHaveNothingToSay) {
   ::setenv("XR_CORE_VALIDATION_FILE_NAME", log.c_str(), 1);
   const support::Monado monado;
   std::vector<std::string> said;
+  std::ostringstream text;
   {
-    HeadsetProgram program({.size = std::array{40, 40}, .readable = true}, true);
+    // STAGE: the layer of OpenXR 1.0.20 is older than LOCAL_FLOOR and refuses its number.
+    HeadsetProgram program({.space = xr::SpaceChoice::stage, .size = std::array{40, 40}, .readable = true}, true);
     render::Scene scene = support::dark_scene();
     support::add_wall(scene, support::add_material(scene, support::unlit({1, 1, 1, 1})), 0, 1, 3, 0.5F);
     render::Renderer renderer(program.device, scene, {.traversal = render::Traversal::per_ray});
@@ -127,16 +129,19 @@ TEST(SessionLife, ValidationLayersHaveNothingToSay) {
       program.loop.show(*frame);
     }
     (void)live.wait();
+    text << std::ifstream(log).rdbuf();
+    // It is there: what is wrong does not reach the runtime.
+    XrReferenceSpaceCreateInfo wrong{};
+    wrong.type = XR_TYPE_FRAME_STATE;
+    XrSpace none = XR_NULL_HANDLE;
+    EXPECT_EQ(xrCreateReferenceSpace(program.session.handle(), &wrong, &none), XR_ERROR_VALIDATION_FAILURE);
     program.leave();
     said = program.device.validation_messages();
   }
+  ::unsetenv("XR_ENABLE_API_LAYERS");
   EXPECT_EQ(said, std::vector<std::string>{});
-  std::ostringstream text;
-  text << std::ifstream(log).rdbuf();
-  ASSERT_NE(text.str().find("xrEndFrame"), std::string::npos) << "the layer was not there";
-  for (const char* word : {"VALID_ERROR", "VALID_WARNING", "[ERROR", "[WARN", "VUID"}) {
-    EXPECT_EQ(text.str().find(word), std::string::npos) << word << " in\n" << text.str().substr(0, 4000);
-  }
+  EXPECT_EQ(text.str(), "");
+  EXPECT_GT(std::filesystem::file_size(log), 0U) << "what it says goes elsewhere";
 }
 
 TEST(SessionLife, ARuntimeThatDiesEndsTheLoopWithAnError) {

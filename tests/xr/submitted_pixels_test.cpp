@@ -17,17 +17,19 @@ using tracking::Side;
 
 constexpr int kHalf = 188;  // sRGB of linear 0.5, IEC 61966-2-1: 255 (1.055 0.5^(1/2.4) - 0.055) = 187.5
 
-// A white sky, halved, and each eye behind a tint of its own: left green, right red.
+// Between two walls of half the light of white: the left eye before a green one, the right eye before a red one.
 struct TwoColours {
   explicit TwoColours(HeadsetProgram& program)
-      : scene(white_sky()), renderer(program.device, scene, {.traversal = render::Traversal::per_ray}) {
+      : scene(two_walls()), renderer(program.device, scene, {.traversal = render::Traversal::per_ray}) {
     for (const Side side : {Side::left, Side::right}) {
       render::ViewSetup& view = views.emplace_back();
       view.lens = lenses::append_lens(model, nullptr, side, 0.00305);
       view.eye = lenses::make_eye_data(lenses::Eye{}, 5.0, 0.003);
       view.viewing = render::Viewing::fixed;
       view.view.fov = tracking::FieldOfView::symmetric(1.0, 1.0);
-      view.tint = side == Side::left ? glm::dvec3(0.0, 0.5, 0.0) : glm::dvec3(0.5, 0.0, 0.0);
+      if (side == Side::right) {
+        view.world_from_eye.orientation = glm::dquat(0.0, 0.0, 1.0, 0.0);  // half a turn
+      }
     }
     const xr::Swapchain& left = program.loop.swapchain(Side::left);
     render::LiveConfig config;
@@ -39,11 +41,10 @@ struct TwoColours {
         renderer, model, views, config, std::vector{left.images(), program.loop.swapchain(Side::right).images()});
   }
 
-  static render::Scene white_sky() {
+  static render::Scene two_walls() {
     render::Scene scene = support::dark_scene();
-    scene.environment.sky_zenith = scene.environment.sky_horizon = glm::vec3(1.0F);
-    // Something to trace, out of sight.
-    support::add_wall(scene, support::add_material(scene, support::matte(glm::vec3(1))), 0.0F, 0.0F, -50.0F, 0.1F);
+    support::add_wall(scene, support::add_material(scene, support::unlit({0, 0.5F, 0, 1})), 0.0F, 0.0F, 2.0F, 4.0F);
+    support::add_wall(scene, support::add_material(scene, support::unlit({0.5F, 0, 0, 1})), 0.0F, 0.0F, -2.0F, 4.0F);
     return scene;
   }
 

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -12,6 +15,7 @@
 #include "tests/support/monado.hpp"
 #include "tests/support/remote_head.hpp"
 #include "tests/support/run_program.hpp"
+#include "tracking/gaze_trace.hpp"
 #include "tracking/stereo_view.hpp"
 
 namespace {
@@ -104,18 +108,76 @@ TEST(VrCommand, EndsWhenTheRuntimeIsKilled) {
   }
 }
 
+std::string content_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// A recording draws the same pictures again, bit for bit, wherever the head is by then.
+TEST(VrCommand, AReplayIsThePictureThatWasRecorded) {
+  const support::TemporaryFolder folder;
+  const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::vector<std::string> worn{"--spectacles", VERGENCE_ASSETS "/spectacles/hyperopia.json", "--wearer",
+                                      VERGENCE_ASSETS "/wearers/hyperopia.json"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), worn.begin(), worn.end());
+    const ProgramResult result = vergence(arguments);
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+  };
+  const support::Monado monado;  // its simulated head never stands still
+  run({"vr", "--size", "48x40", "--frames", "6", "--record", file("a.csv"), "--screenshot", file("recorded.png")});
+  run({"vr", "--replay", file("a.csv"), "--screenshot", file("replayed.png")});
+  run({"vr", "--size", "48x40", "--frames", "6", "--screenshot", file("elsewhere.png")});
+  EXPECT_EQ(content_of(file("replayed.png")), content_of(file("recorded.png")));
+  EXPECT_NE(content_of(file("elsewhere.png")), content_of(file("recorded.png"))) << "the head stood still";
+  EXPECT_EQ(tracking::read_gaze_trace(file("a.csv")).rows.size(), 6U);
+}
+
+// What was recorded before the runtime died is whole, and says how it ended.
+TEST(VrCommand, ARecordingOutlivesTheRuntime) {
+  support::Monado monado;
+  const support::TemporaryFolder folder;
+  const std::filesystem::path trace = folder.path() / "a.csv";
+  std::thread killer([&] {
+    const auto stop = std::chrono::steady_clock::now() + kLimit;
+    const auto lines = [&] {
+      const std::string text = content_of(trace);
+      return std::ranges::count(text, '\n');
+    };
+    while (lines() < 4 && std::chrono::steady_clock::now() < stop) {  // a header and three frames
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    monado.kill();
+  });
+  const ProgramResult result = vergence({"vr", "--size", "32x32", "--frames", "1000000", "--record", trace.string()});
+  killer.join();
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_FALSE(result.timed_out);
+  const tracking::GazeTrace kept = tracking::read_gaze_trace(trace.string());
+  EXPECT_GE(kept.rows.size(), 3U);
+  EXPECT_FALSE(kept.last_line_cut);
+  const json record = json::parse(content_of(trace.string() + ".json"));
+  EXPECT_EQ(record["events"].back()["event"], "session lost");
+}
+
 // A headset whose displays are turned to where `render` turns its pictures shows what render draws for those eyes.
 TEST(VrCommand, EachEyeSeesThroughItsOwnLensAsRenderDrawsIt) {
   support::leave_network();
   const support::TemporaryFolder folder;
+  // Without accommodation, so that none of its course in time comes in between.
+  const std::string wearer = folder.write("wearer.json",
+                                          R"({"right": {"accommodation_amplitude_D": 0.0},
+                                              "left": {"accommodation_amplitude_D": 0.0}})");
   const std::string plano_and_four =
       folder.write("pair.json",
                    R"({"right": {"prescription": {"sphere": 0.0, "cylinder": 0, "axis": 0}, "material": "CR-39"},
           "left": {"prescription": {"sphere": 4.0, "cylinder": 0, "axis": 0}, "material": "CR-39"}})");
   const std::string drawn = (folder.path() / "render.png").string();
   const std::string shown = (folder.path() / "vr.png").string();
-  const std::vector<std::string> shared{
-      "--spectacles", plano_and_four, "--headset", VERGENCE_ASSETS "/headsets/example.json", "--size", "160x160"};
+  const std::vector<std::string> shared{"--spectacles", plano_and_four, "--wearer",
+                                        wearer,         "--headset",    VERGENCE_ASSETS "/headsets/example.json",
+                                        "--size",       "160x160"};
   std::vector<std::string> render{"render", "--fov", "60", "--pose", "0.2,1.3,0.1,0,0", "--output", drawn, "--json"};
   render.insert(render.end(), shared.begin(), shared.end());
   const ProgramResult still = vergence(render);

@@ -35,7 +35,7 @@ enum class BlurKernel {
 struct BlurAccuracy {
   BlurKernel kernel = BlurKernel::disc;
   int taps = 256;  // about the most of a gathered blur; fewer where it has fewer pixels
-  int rate = 2;    // pixels between gathered ones where the minor semi-axis is 4 px or more; 1: every pixel
+  int rate = 2;    // pixels between gathered ones where the minor semi-axis is 6 px or more; 1: every pixel
 };
 
 struct Foveation {

@@ -48,11 +48,14 @@ void FrameJob::record_blur(vk::Commands& commands) {
 void FrameJob::find_layers(vk::Commands& commands, const BlurVariant& variant) {
   data_.limits.w = half_pupil_px_[static_cast<std::size_t>(data_.view.x)];
   empty_list(commands, out_.list);
+  commands.fill_zero(out_.blur_widest);
+  commands.barrier();
   dispatch_squares(commands, kernels_.get(Stage::blur_tiles, variant),
-                   {&out_.pixels, &out_.blur_tiles, &out_.blur_levels, &out_.blur_nearest}, gpu::kBlurTile);
+                   {&out_.pixels, &out_.blur_tiles, &out_.blur_levels, &out_.blur_nearest, &out_.blur_widest},
+                   gpu::kBlurTile);
   commands.barrier();
   dispatch_squares(commands, kernels_.get(Stage::blur_reach, variant),
-                   {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.list}, gpu::kBlurTile);
+                   {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.list, &out_.blur_widest}, gpu::kBlurTile);
   commands.barrier();
   if (variant.rate > 1) {
     dispatch_squares(commands, kernels_.get(Stage::blur_squares, variant),

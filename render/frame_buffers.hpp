@@ -10,14 +10,15 @@
 
 namespace render {
 
-constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32, kTransferBytes = 64, kCornerBytes = 96;  // see shaders/frame.h
+constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32, kTransferBytes = 64,
+                      kCornerBytes = 96;  // see shaders/frame.h
 
 // The buffers of one size of frame.
 struct FrameBuffers {
   struct Size {
     std::size_t pixels = 0;  // of all views
     bool wavefront = false, sums = false;
-    bool hits = false;             // what rays meet is found by a kernel of its own
+    bool hits = false;            // what rays meet is found by a kernel of its own
     bool transfers = false;       // rays leave their ray-transfer matrices
     std::size_t corner_rays = 0;  // of interpolated lens rays, of all views
     std::size_t blur_tiles = 0;   // of one view; 0: nothing is blurred
@@ -43,8 +44,9 @@ struct FrameBuffers {
         doubtful(device, (s.pixels + 4) * 4, vk::Memory::device),
         blocks(device, s.pixels * 4, vk::Memory::device),
         blur_tiles(device, s.blur_tiles * 16, vk::Memory::device),
-        blur_reaches(device, s.blur_tiles * 4, vk::Memory::device),
-        blur_levels(device, s.blur_tiles * 21 * 8, vk::Memory::device),  // 16 + 4 + 1 squares a tile
+        blur_widest(device, 4, vk::Memory::device),
+        blur_reaches(device, s.blur_tiles * 8, vk::Memory::device),
+        blur_levels(device, s.blur_tiles * 21 * 8, vk::Memory::device),    // 16 + 4 + 1 squares a tile
         blur_nearest(device, s.blur_tiles * 16 * 16, vk::Memory::device),  // 16 squares of 2 pixels a tile
         blur_squares(device, s.blur_tiles * 16 * 8, vk::Memory::device),
         radiance(device, s.pixels * 8, vk::Memory::device),
@@ -52,7 +54,7 @@ struct FrameBuffers {
 
   Size size;
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
-      blocks, blur_tiles, blur_reaches, blur_levels, blur_nearest, blur_squares, radiance, display;
+      blocks, blur_tiles, blur_widest, blur_reaches, blur_levels, blur_nearest, blur_squares, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
   int samples = 0;  // in sums
 };

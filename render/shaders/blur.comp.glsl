@@ -49,7 +49,7 @@ vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
     }
   }
   float area = ellipse_area(reach, minor);
-  vec4 sum = disc_sum(centre.ellipse, area, vec2(p) + 0.5, level_of(area, minor, 0), 0.0, base);
+  vec4 sum = disc_sum(centre.ellipse, area, vec2(p) + 0.5, level_of(area, minor), 0.0, base);
   return sum.a > 0.0 ? sum.rgb / sum.a : centre.radiance;
 }
 
@@ -64,7 +64,7 @@ void main() {
   vec3 mean = centre.radiance;
   if (kTaps != 0) {
     ivec2 tile = p / kBlurTile;
-    if (uintBitsToFloat(texelFetch(reaches, tile.y * tile_count().x + tile.x).x) >= 0.0) {
+    if (TILE_REACH(tile).x >= 0.0) {
       return;  // has layers
     }
     float reach = major(centre.ellipse);

@@ -51,7 +51,7 @@ vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
   float side = float(1 << level);
   float step = max(1.0, floor(sqrt(kPi * reach * max(minor, 1.0) / float(kTaps)) / side));
   float cell = side * step;
-  vec3 s = shrunk(centre.ellipse, (side * side - 1.0 + cell * cell) / 12.0) / cell;
+  vec3 s = shrunk(centre.ellipse, taps_variance(side, cell)) / cell;
   ivec2 at = p >> level;
   vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;
   Rows rows = rows_of(s, beside / step);
@@ -61,7 +61,7 @@ vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
   float uncovered = 0.0;
   for (int row = range.x; row <= range.y; ++row) {
     vec2 span = row_span(rows, row);
-    ivec2 cells = cells_between(span.x, span.y);
+    ivec2 cells = row_cells(rows, span);
     for (int k = cells.x; k <= cells.y; ++k) {
       ivec2 q = int(step) * ivec2(k, row);
       vec2 offset = (vec2(q) - beside) * side;
@@ -125,7 +125,7 @@ vec4 front(float here, float reach, ivec2 p, int base) {
   float area = side * side * step * step;  // px of a tap
   ivec2 at = p >> level;
   vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;
-  int rows = int(radius / step);
+  int rows = reach > 0.0 ? int(radius / step) : -1;
   vec4 sum = vec4(0.0);
   for (int row = -rows; row <= rows; ++row) {
     float y = float(row) * step;
@@ -145,8 +145,9 @@ void main() {
   ivec2 size = frame.size.xy;
   int base = frame.view.x * size.x * size.y;
   for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
-    int tile = int(list[kListFirstAt + i]);
-    ivec2 p = kBlurTile * ivec2(tile % tile_count().x, tile / tile_count().x) + ivec2(gl_LocalInvocationID.xy);
+    int item = int(list[kListFirstAt + i]);
+    ivec2 tile = ivec2(item % tile_count().x, item / tile_count().x);
+    ivec2 p = kBlurTile * tile + ivec2(gl_LocalInvocationID.xy);
     if (p.x >= size.x || p.y >= size.y) {
       continue;
     }
@@ -154,10 +155,13 @@ void main() {
     vec3 mean = centre.radiance;
     if (centre.depth >= 0.0) {
       float reach = major(centre.ellipse);
-      float reach_of_front = uintBitsToFloat(texelFetch(reaches, tile).x);
+      float here = nearness(centre.depth);
+      vec2 before_tile = TILE_REACH(tile);
+      // The nearest itself has nothing in front of it.
+      float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
       vec4 before = vec4(0.0);
       if (reach_of_front > 0.0) {
-        before = front(nearness(centre.depth), reach_of_front, p, base);
+        before = front(here, reach_of_front, p, base);
         mean = clean_radiance(centre, p, base);
       }
       if (reach >= frame.limits.x) {

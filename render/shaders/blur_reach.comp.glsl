@@ -5,8 +5,9 @@
 #include "render/shaders/gather.glsl"
 
 layout(binding = 1) uniform samplerBuffer tiles;
-layout(std430, binding = 2) writeonly buffer Reach { float reaches[]; };  // px that what lies in front reaches into a listed tile; -1: not listed
+layout(std430, binding = 2) writeonly buffer Reach { vec2 reaches[]; };  // gather.glsl
 layout(std430, binding = 3) buffer List { uint list[]; };
+layout(binding = 4) uniform usamplerBuffer widest;
 
 void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -19,8 +20,10 @@ void main() {
   float nearest = own.y;
   float farthest = own.z;
   float reach = 0.0;
-  for (int y = max(tile.y - kMostBlurTiles, 0); y <= min(tile.y + kMostBlurTiles, count.y - 1); ++y) {
-    for (int x = max(tile.x - kMostBlurTiles, 0); x <= min(tile.x + kMostBlurTiles, count.x - 1); ++x) {
+  float most = kernel_reach() * uintBitsToFloat(texelFetch(widest, 0).x);
+  int around = min(int(ceil(most / float(kBlurTile))), kMostBlurTiles);
+  for (int y = max(tile.y - around, 0); y <= min(tile.y + around, count.y - 1); ++y) {
+    for (int x = max(tile.x - around, 0); x <= min(tile.x + around, count.x - 1); ++x) {
       vec4 other = texelFetch(tiles, y * count.x + x);
       float gap = float(kBlurTile * (max(abs(x - tile.x), abs(y - tile.y)) - 1));
       if (kernel_reach() * own.x > gap) {
@@ -29,12 +32,13 @@ void main() {
       }
       if (kernel_reach() * other.w > gap && other.y - own.z > apart) {
         reach = max(reach, other.w);
+        nearest = max(nearest, other.y);
       }
     }
   }
   reach = reach >= frame.limits.x ? min(reach * kernel_reach(), float(kBlurTile * kMostBlurTiles)) : 0.0;
   bool listed = reach > 0.0 || (own.x >= frame.limits.x && nearest - farthest > apart);
-  reaches[tile.y * count.x + tile.x] = listed ? reach : -1.0;
+  reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : -1.0, nearest);
   if (listed) {
     uint place = atomicAdd(list[kListCountAt], 1u);
     list[kListFirstAt + place] = uint(tile.y * count.x + tile.x);

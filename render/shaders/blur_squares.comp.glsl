@@ -25,14 +25,14 @@ void main() {
     ellipse += 0.25 * tap.ellipse;
     least = tap.depth < 0.0 ? 0.0 : min(least, tap.ellipse.x + tap.ellipse.z - major(tap.ellipse));
   }
-  bool wide = least >= kWideBlur && uintBitsToFloat(texelFetch(reaches, tile.y * tile_count().x + tile.x).x) < 0.0;
+  bool wide = least >= kWideBlur && TILE_REACH(tile).x < 0.0;
   vec4 sum = vec4(0.0);
   if (wide) {
     float reach = major(ellipse);
     float minor = ellipse.x + ellipse.z - reach;
     float area = ellipse_area(reach, minor);
     // Interpolating with weights of 3/4 at half a pixel and 1/4 at one and a half.
-    sum = disc_sum(ellipse, area, 2.0 * vec2(square) + 1.0, level_of(area, minor, 1), 0.75, base);
+    sum = disc_sum(ellipse, area, 2.0 * vec2(square) + 1.0, level_of(area, minor), 0.75, base);
   }
   vec3 mean = sum.rgb / max(sum.a, 1e-6);
   squares[square.y * width + square.x] =

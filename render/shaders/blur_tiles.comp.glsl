@@ -8,6 +8,7 @@
 layout(std430, binding = 1) writeonly buffer Tiles { vec4 tiles[]; };
 layout(std430, binding = 2) writeonly buffer Levels { uvec2 levels[]; };
 layout(std430, binding = 3) writeonly buffer Nearest { uvec4 nearest_squares[]; };
+layout(std430, binding = 4) buffer Widest { uint widest; };  // bits of the picture's largest blur
 
 struct Mean {
   vec3 radiance;
@@ -89,6 +90,7 @@ void main() {
     eight = Mean(eight.radiance + four.radiance, eight.count + four.count);
   }
   leave_level(3, tile, eight);
+  atomicMax(widest, floatBitsToUint(reach));
   float reach_of_nearest = 0.0;
   for (int k = 0; k < 16; ++k) {
     if ((nearest - squares[k].x) * frame.limits.w <= kBlurParallax) {

@@ -56,7 +56,7 @@ const int kBlurTile = 8;         // px a side
 const int kMostBlurTiles = 16;   // as far as a tile looks for blur that reaches it
 const float kBlurParallax = 0.5; // px that the pupil's half may set apart what counts as one depth
 const float kNearestFill = 1.0; // px^-2: how soon light behind an edge counts less with distance
-const float kWideBlur = 4.0;     // px, a minor semi-axis from which neighbours may share a gather
+const float kWideBlur = 6.0;     // px, a minor semi-axis from which neighbours may share a gather
 
 // Means over squares of 2, 4 and 8 pixels: level after level, whole tiles, row by row.
 #ifndef __cplusplus

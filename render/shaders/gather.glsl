@@ -8,12 +8,17 @@ layout(push_constant) uniform Frame { FrameData frame; };
 layout(constant_id = 0) const int kTaps = 0;  // about the most of a gathered blur; 0: nothing is blurred
 layout(constant_id = 1) const uint kGaussian = 0u;
 layout(constant_id = 2) const uint kEncode = 0u;  // 1: to the display's bytes, 0: to linear radiance
-layout(constant_id = 3) const int kRate = 1;  // px between gathered ones where the minor semi-axis is 4 px or more
+layout(constant_id = 3) const int kRate = 1;  // px between gathered ones where the minor semi-axis is kWideBlur or more
 layout(binding = 0) uniform usamplerBuffer pixels;
 
 const float kPi = 3.14159265358979;
-// How far a kernel reaches, in radii of the disc: a Gaussian of the disc's second moments has lost 0.03 % there.
-float kernel_reach() { return kGaussian != 0u ? 2.0 : 1.0; }
+// How far a kernel reaches, in radii of the disc: a Gaussian of the disc's second moments has lost 0.0004 % there.
+float kernel_reach() { return kGaussian != 0u ? 2.5 : 1.0; }
+
+// What reaches into a tile: how far (px) what lies in front does, -1 where no blur reaches across depth; how near (1/m)
+// the nearest is. The includer that needs it declares `reaches`.
+#define TILE_REACH(tile) \
+  uintBitsToFloat(texelFetch(reaches, (tile).y * tile_count().x + (tile).x).xy)
 
 struct Tap {
   vec3 radiance;
@@ -71,6 +76,10 @@ vec3 shrunk(vec3 s, float variance) {
   return slope * s + vec3(level, 0.0, level);
 }
 
+// What taps widen the picture of a point by (px^2): the width of the squares they are means of, and, measured over places
+// of the point, half of what the width of their cells would come to.
+float taps_variance(float side, float cell) { return (side * side - 1.0) / 12.0 + (cell * cell - 1.0) / 24.0; }
+
 // An ellipse over a grid of cells, row by row: each row's cells count by how much of them the ellipse covers, or by a
 // Gaussian of its second moments. In cells; `centre` from the middle of cell (0, 0).
 struct Rows {
@@ -100,7 +109,7 @@ float half_widths(float y) {
   return 0.5 * (u * sqrt(1.0 - u * u) + asin(u));
 }
 
-// From where to where a row's part of the ellipse goes: its mean over the row's height.
+// From where to where a row's part of the ellipse goes, as its mean over the row's height.
 vec2 row_span(Rows rows, int row) {
   float y = float(row) - rows.centre.y;
   float middle = rows.centre.x + rows.lean * y;
@@ -111,12 +120,21 @@ vec2 row_span(Rows rows, int row) {
   return middle + rows.width * vec2(-part, part);
 }
 
+// A row's ends are as wide as a cell and what the row leans within its height.
+float row_softness(Rows rows) { return sqrt(1.0 + rows.lean * rows.lean); }
+
+ivec2 row_cells(Rows rows, vec2 span) {
+  float beyond = 0.5 * row_softness(rows) - 0.5;
+  return cells_between(span.x - beyond, span.y + beyond);
+}
+
 float cell_weight(Rows rows, vec2 span, int row, int cell) {
   if (kGaussian != 0u) {
     vec2 inner = vec2((float(cell) - 0.5 * (span.x + span.y)) / rows.width, (float(row) - rows.centre.y) / rows.top);
     return exp(-2.0 * dot(inner, inner));
   }
-  return max(min(float(cell) + 0.5, span.y) - max(float(cell) - 0.5, span.x), 0.0);
+  vec2 past = clamp((float(cell) - span) / row_softness(rows) + 0.5, 0.0, 1.0);
+  return past.x - past.y;
 }
 
 // The nine weights of a blur within the pixel, with the ellipse's own second moments, S S^T / 4.

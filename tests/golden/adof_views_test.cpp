@@ -1,6 +1,7 @@
 // Approximate defocus against distributed rays, 4096 a pixel, in a committed set of views.
 //
-// VERGENCE_REMAKE_REFERENCES=1 renders tests/golden/references/defocus anew instead of comparing, those alone whose test
+// VERGENCE_REMAKE_REFERENCES=1 renders tests/golden/references/defocus anew instead of comparing, those alone whose
+// test
 // --gtest_filter names; with VERGENCE_REFERENCE_SAMPLES=N by N samples. Half an hour of two cores for all.
 #include <gtest/gtest.h>
 
@@ -57,9 +58,9 @@ class AdofViews : public testing::TestWithParam<DefocusView> {
   inline static support::DefocusViews* views_ = nullptr;
 };
 
-// White paper shows 0.8 to 0.9 of full scale in all of them, without exposure. A picture that mixes what is there by the
-// right weights differs from the reference by what chief rays do not see: what a near edge hides, and errors of the lens
-// beyond defocus and astigmatism.
+// White paper shows 0.8 to 0.9 of full scale in all of them, without exposure. A picture that mixes what is there by
+// the right weights differs from the reference by what chief rays do not see: what a near edge hides, and errors of the
+// lens beyond defocus and astigmatism.
 TEST_P(AdofViews, ComeCloseToDistributedRays) {
   const DefocusView& view = GetParam();
   if (std::getenv("VERGENCE_REMAKE_REFERENCES") != nullptr) {

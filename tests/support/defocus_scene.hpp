@@ -66,8 +66,8 @@ inline render::Scene lamp_scene() {
   const auto uniform = [&] { return static_cast<float>(random() % 1000) / 1000.0F; };
   for (int lamp = 0; lamp < 14; ++lamp) {
     const float radiance = 4.0F * std::pow(6.0F, uniform());
-    const auto glow = add_material(scene, unlit({radiance, radiance * (0.5F + 0.5F * uniform()),
-                                                 radiance * (0.3F + 0.7F * uniform()), 1.0F}));
+    const auto glow = add_material(
+        scene, unlit({radiance, radiance * (0.5F + 0.5F * uniform()), radiance * (0.3F + 0.7F * uniform()), 1.0F}));
     const float x = 0.26F * (uniform() - 0.5F), y = 0.26F * (uniform() - 0.5F);
     add_ball(scene, glow, {x, y, -far}, 0.0015F + 0.002F * uniform(), 8);
   }

@@ -14,8 +14,8 @@
 namespace support {
 
 inline constexpr int kDefocusSize = 192;  // pixels a side
-// What blur brings in from outside a picture no neighbour can tell: pixels nearer to its border than the largest blur of
-// the views (14 px) are not judged.
+// What blur brings in from outside a picture no neighbour can tell: pixels nearer to its border than the largest blur
+// of the views (14 px) are not judged.
 inline constexpr int kDefocusMargin = 16;
 
 struct DefocusView {
@@ -28,25 +28,27 @@ struct DefocusView {
   const char* target;
   std::array<double, 2> aside_deg;  // the picture's centre, right of and above the target
   double fov_deg;
-  double least_db;  // that approximate defocus reaches against the reference
+  double least_db;            // that approximate defocus reaches against the reference
   double head_yaw_deg = 0.0;  // turned to the right, the gaze staying on the target
 
   friend std::ostream& operator<<(std::ostream& out, const DefocusView& view) { return out << view.name; }
 };
 
 inline constexpr std::array kDefocusViews{
-    DefocusView{"text_near", "room", "presbyopia", 0, 62, "", "near_card", {1.5, 0}, 6, 42},
-    DefocusView{"text_far", "room", "emmetropia", -3.0, 35, "", "etdrs_chart", {0, 0.5}, 4.5, 42},
-    DefocusView{"clock_dial", "room", "astigmatism", 0, 35, "", "clock_dial", {0, 0}, 4.5, 42},
-    DefocusView{"progressive_rim", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "window", {-2, 1}, 7.5, 38, 12},
-    DefocusView{"progressive_corridor", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "screen", {2, 0}, 6, 41},
-    DefocusView{"blurred_before_sharp", "layers", "emmetropia", 0, 20, "", "far", {0, 0}, 3.75, 35},
-    DefocusView{"sharp_before_blurred", "layers", "emmetropia", 0, 20, "", "near", {0, 0}, 3.75, 35},
-    DefocusView{"both_blurred", "layers", "presbyopia", -1.5, 62, "", "far", {0, 0}, 3, 35},
-    DefocusView{"lamps", "lamps", "emmetropia", 0, 20, "", "near", {0, 0}, 3, 38},
-    DefocusView{"minus_lens", "room", "myopia", 0, 62, "myopia", "phone", {0, 0}, 10.5, 40},
-    DefocusView{"plus_lens", "room", "hyperopia", 0, 62, "hyperopia", "near_card", {-1, 1.5}, 7.5, 40},
-    DefocusView{"reading_room", "room", "presbyopia", -2.5, 62, "", "screen", {9, 12}, 13.5, 40},
+    DefocusView{"text_near", "room", "presbyopia", 0, 62, "", "near_card", {1.5, 0}, 6, 50},
+    DefocusView{"text_far", "room", "emmetropia", -3.0, 35, "", "etdrs_chart", {0, 0.5}, 4.5, 50},
+    DefocusView{"clock_dial", "room", "astigmatism", 0, 35, "", "clock_dial", {0, 0}, 4.5, 50},
+    DefocusView{
+        "progressive_rim", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "window", {-2, 1}, 7.5, 38, 12},
+    DefocusView{
+        "progressive_corridor", "room", "presbyopia", 0, 62, "presbyopia_bspline_sphere", "screen", {2, 0}, 6, 45},
+    DefocusView{"blurred_before_sharp", "layers", "emmetropia", 0, 20, "", "far", {0, 0}, 3.75, 36},
+    DefocusView{"sharp_before_blurred", "layers", "emmetropia", 0, 20, "", "near", {0, 0}, 3.75, 35.5},
+    DefocusView{"both_blurred", "layers", "presbyopia", -1.5, 62, "", "far", {0, 0}, 3, 36.5},
+    DefocusView{"lamps", "lamps", "emmetropia", 0, 20, "", "near", {0, 0}, 3, 40},
+    DefocusView{"minus_lens", "room", "myopia", 0, 62, "myopia", "phone", {0, 0}, 10.5, 49},
+    DefocusView{"plus_lens", "room", "hyperopia", 0, 62, "hyperopia", "near_card", {-1, 1.5}, 7.5, 49},
+    DefocusView{"reading_room", "room", "presbyopia", -2.5, 62, "", "screen", {9, 12}, 13.5, 42},
 };
 
 // The scenes above and their renderers, made when first asked for.
@@ -66,10 +68,9 @@ class DefocusViews {
     const WornPair pair = worn(view, stage.scene);
     auto setups = views_at(pair, Viewing::gaze, target_position(stage.scene, view.target),
                            tracking::FieldOfView::symmetric(view.fov_deg * kDegree, 1.0));
-    setups[0].view.head_from_view.orientation =
-        setups[0].view.head_from_view.orientation *
-        glm::angleAxis(-view.aside_deg[0] * kDegree, glm::dvec3(0, 1, 0)) *
-        glm::angleAxis(view.aside_deg[1] * kDegree, glm::dvec3(1, 0, 0));
+    setups[0].view.head_from_view.orientation = setups[0].view.head_from_view.orientation *
+                                                glm::angleAxis(-view.aside_deg[0] * kDegree, glm::dvec3(0, 1, 0)) *
+                                                glm::angleAxis(view.aside_deg[1] * kDegree, glm::dvec3(1, 0, 0));
     render::FrameConfig config = settings;
     config.width = config.height = kDefocusSize;
     config.keep_radiance = true;
@@ -78,8 +79,7 @@ class DefocusViews {
 
  private:
   static WornPair worn(const DefocusView& view, const render::Scene& scene) {
-    lenses::Wearer wearer =
-        lenses::read_wearer(std::string(VERGENCE_ASSETS "/wearers/") + view.wearer + ".json");
+    lenses::Wearer wearer = lenses::read_wearer(std::string(VERGENCE_ASSETS "/wearers/") + view.wearer + ".json");
     wearer.age = view.age;
     if (view.sphere != 0.0) {
       for (lenses::Eye& eye : wearer.eye) eye.power = lenses::Refraction{view.sphere, 0.0, 0.0};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "render/lens_forms/view_direction.hpp"
 
@@ -58,8 +59,13 @@ void WavefrontReference::append_differences(const WavefrontPlanes& planes, std::
       }
     }
     const double hh = planes.v_hh[point.pixel], hv = planes.v_hv[point.pixel], vv = planes.v_vv[point.pixel];
-    power.push_back(std::abs(0.5 * (hh + vv) - 0.5 * (v.x + v.z)));
-    astigmatism.push_back(std::abs(std::hypot(hh - vv, 2.0 * hv) - std::hypot(v.x - v.z, 2.0 * v.y)));
+    // What is not a number is as wrong as can be, and a list with it has no order.
+    const auto distance = [](double a, double b) {
+      const double d = std::abs(a - b);
+      return std::isfinite(d) ? d : std::numeric_limits<double>::infinity();
+    };
+    power.push_back(distance(0.5 * (hh + vv), 0.5 * (v.x + v.z)));
+    astigmatism.push_back(distance(std::hypot(hh - vv, 2.0 * hv), std::hypot(v.x - v.z, 2.0 * v.y)));
   }
 }
 

@@ -123,7 +123,7 @@ LogPlot wavefront_plot(const TradeoffReport& report, const std::vector<LogPlot::
   for (const TradeoffRow& row : report.rows) {
     const double error = std::max(row.power_error_D_p99.value_or(0.0), row.astigmatism_error_D_p99.value_or(0.0));
     const bool about_it = row.subject.starts_with("lens") || row.setting == "standard" || row.setting == "vis";
-    if (error > 0.0 && about_it) {
+    if (error > 0.0 && std::isfinite(error) && about_it) {
       if (row.rmse) {
         pictures.push_back(plot.points.size());
       }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "lenses/lens_io/lens_io.hpp"
 #include "render/vk/device.hpp"
 #include "tests/support/lit_scene.hpp"
@@ -47,6 +49,10 @@ TEST_F(WavefrontErrorTest, TheDeviceIsCloseAndWhatIsAddedIsFound) {
   const auto shifted = error_of(reference, moved);
   EXPECT_NEAR(shifted->power_p99, 0.25, 1e-3);
   EXPECT_NEAR(shifted->astigmatism_p99, device->astigmatism_p99, 1e-5) << "power alone was moved";
+  for (std::size_t i = 0; i < moved.v_hh.size(); i += 10) {
+    moved.v_hh[i] = NAN;
+  }
+  EXPECT_EQ(error_of(reference, moved)->power_p99, INFINITY) << "a tenth is no number";
 }
 
 // Far beyond the lens's rim and without one, V is that of the distance.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -178,6 +179,8 @@ TEST(TradeoffChart, LabelsDoNotCoverEachOther) {
   for (int i = 0; i < 24; ++i) {
     r.rows.push_back(row("setting-number-" + std::to_string(i), 95.0 + i % 7, 0.0101 + 0.0001 * i));
   }
+  r.rows.push_back(row("broken", 95.0, 0.5));
+  r.rows.back().power_error_D_p99 = std::numeric_limits<double>::infinity();
   mark_efficient(r.rows);
   const app::Drawing chart = tradeoff_chart(r);
   std::size_t labels = 0;

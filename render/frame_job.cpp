@@ -1,8 +1,10 @@
 #include "render/frame_job.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
+#include <thread>
 
 #include "render/gpu_tracer.hpp"
 #include "render/map_range.hpp"
@@ -66,6 +68,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (traversal == Traversal::ray_query) {
     accelerated_ = &scene.acceleration(device).top;
   }
+  data_.view.z = device.limits().on_processor ? static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) : 1;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
   data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
   // A pinhole picture is the defocused one with nothing left to blur.

@@ -7,7 +7,7 @@
 layout(std430, binding = 1) writeonly buffer Display { uint display[]; };
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   ivec2 size = frame.size.xy;
   if (p.x >= size.x || p.y >= size.y) {
     return;

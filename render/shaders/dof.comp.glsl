@@ -7,6 +7,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/group.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 10) readonly buffer Wavefronts { vec4 wavefronts[]; };
@@ -45,7 +46,7 @@ vec2 to_disc(vec2 square) {
 }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;

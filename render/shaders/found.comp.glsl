@@ -4,6 +4,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/group.glsl"
 #include "render/shaders/chief_out.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -28,7 +29,7 @@ PixelRay found_ray(ViewData view, vec3 direction, int at) {
 }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;

@@ -17,7 +17,7 @@ struct FrameData {
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
-  // y: the round of edge rays, 0 or 1.
+  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl).
   ivec4 view;
 };
 

@@ -6,6 +6,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform usamplerBuffer pixels;
 layout(push_constant) uniform Frame { FrameData frame; };
+#include "render/shaders/group.glsl"
 
 struct Tap {
   vec3 radiance;

@@ -218,7 +218,9 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
   vec3 light = environment.ambient.rgb * open;  // on a matte surface
   vec3 shine = environment.ambient.rgb * open * (brdf.diffuse + brdf.specular);
   // After the lights a smooth surface looks along the mirrored ray for the sky.
-  int light_count = kBare != 0u ? min(environment.counts.x, 1) : environment.counts.x;
+  // A number from a uniform buffer must not end a loop: lavapipe compiles such a kernel anew for each dispatch. A scene
+  // without lights has one that gives none.
+  int light_count = kBare != 0u ? 1 : textureSize(lights) / 4;
   int rays = light_count + (matte ? 0 : 1);
   for (int i = 0; i < rays; ++i) {
     bool mirrored = HAS(kFeatureShiny) && i == light_count;

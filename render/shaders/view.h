@@ -82,5 +82,5 @@ struct EnvironmentData {
   vec4 sky_zenith;
   vec4 sky_horizon;
   vec4 ambient;
-  ivec4 counts;  // lights, first texel of the second coordinates and colours
+  ivec4 counts;  // -, first texel of the second coordinates and colours
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lenses/prescription.hpp"
+#include "tracking/live_config.hpp"
 #include "tracking/stereo_view.hpp"
 
 namespace lenses {
@@ -161,6 +162,8 @@ struct Wearer {
   std::array<double, 2> pupillary_distance{0.0315, 0.0315};  // monocular, m, indexed by Side
   std::array<Eye, 2> eye;                                    // indexed by Side
   std::array<std::optional<Viewer>, 2> viewer;               // indexed by Side
+  std::optional<double> viewer_age;                          // years; absent: the wearer's
+  tracking::LiveConfig live;                                 // how eyes and tracker behave in time
 };
 
 }  // namespace lenses

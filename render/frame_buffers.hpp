@@ -15,7 +15,7 @@ struct FrameBuffers {
   struct Size {
     std::size_t pixels = 0;  // of all views
     bool wavefront = false, sums = false;
-    bool hits = false;  // what chief rays meet is found by a kernel of its own
+    bool hits = false;  // what rays meet is found by a kernel of its own
 
     [[nodiscard]] bool holds(const Size& other) const {
       return pixels == other.pixels && wavefront >= other.wavefront && sums >= other.sums && hits >= other.hits;

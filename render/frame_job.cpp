@@ -8,6 +8,7 @@
 
 #include "render/gpu_tracer.hpp"
 #include "render/map_range.hpp"
+#include "render/sample_point.hpp"
 
 namespace render {
 namespace {
@@ -27,6 +28,8 @@ constexpr auto kBareFeatures =
 constexpr float kLargestBlur = 512.0F;  // px; beyond it nothing is left to see
 constexpr float kNoBlurDrawn = 1e9F;    // px, as a threshold
 
+}  // namespace
+
 std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
   std::vector<gpu::ViewData> data;
   for (const ViewSetup& view : views) {
@@ -36,10 +39,13 @@ std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std:
   return data;
 }
 
-}  // namespace
+bool encodes_later(const FrameConfig& config) {
+  return config.mode == Mode::dof || (is_map(config.mode) && !config.range);
+}
 
-bool keeps_wavefront(const FrameConfig& config) {
-  return is_map(config.mode) || config.mode == Mode::dof || config.keep_wavefront;
+bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views) {
+  const bool own_focus = std::ranges::any_of(views, [](const ViewSetup& view) { return !view.accommodation; });
+  return is_map(config.mode) || (config.mode == Mode::dof && own_focus) || config.keep_wavefront;
 }
 
 FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& kernels, FrameBuffers& out,
@@ -57,11 +63,13 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
     worn.push_back(lenses.lens[view.lens]);
   }
   variant_.surface_kinds = surface_kinds(worn);
+  variant_.view_traits = view_traits(views, lenses);
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
-  variant_.keep_wavefront = keeps_wavefront(config);
+  variant_.keep_wavefront = keeps_wavefront(config, views);
   variant_.bare = config.bare;
   variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
+  variant_.hits_known = traversal != Traversal::per_ray;
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
   }
@@ -81,10 +89,35 @@ void FrameJob::set_range(const MapRange& range) {
                               static_cast<float>(map_unit_factor(config_.mode)), 0.0F);
 }
 
+void FrameJob::record_views(vk::Commands& commands, const vk::Buffer& from) {
+  commands.copy(from, views_, views_.bytes());
+  commands.barrier();
+}
+
+void FrameJob::record_picture(vk::Commands& commands) {
+  if (config_.mode != Mode::dof || variant_.keep_wavefront) {
+    record_trace(commands);
+  }
+  if (config_.mode == Mode::adof || config_.mode == Mode::pinhole) {
+    if (!config_.bare) {
+      record_edges(commands);
+    }
+    record_blur(commands);
+    if (!config_.keep_radiance) {
+      return;  // the blur has encoded too
+    }
+  }
+  if (!encodes_later(config_)) {
+    record_encode(commands);
+  }
+}
+
 void FrameJob::record_trace(vk::Commands& commands) {
+  variant_.sampled = false;
   if (traversal_ == Traversal::per_ray) {
     trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
   } else {
+    aim(commands);
     find_hits(commands);
     trace_with(commands, Stage::found,
                {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions});
@@ -94,7 +127,7 @@ void FrameJob::record_trace(vk::Commands& commands) {
 
 // A view's list is worked off before the next view's is made: they share the memory.
 void FrameJob::aim(vk::Commands& commands) {
-  const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list});
+  const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.wavefronts});
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     empty_list(commands, out_.list);
     commands.barrier();
@@ -105,12 +138,10 @@ void FrameJob::aim(vk::Commands& commands) {
       commands.barrier();
     }
   }
+  commands.timestamp("rays");
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {
-  aim(commands);
-  commands.timestamp("rays");
-  commands.barrier();
   empty_list(commands, out_.list);
   commands.barrier();
   if (accelerated_ != nullptr) {
@@ -169,8 +200,16 @@ void FrameJob::record_encode(vk::Commands& commands) {
 }
 
 void FrameJob::record_sample(vk::Commands& commands, int index) {
+  variant_.sampled = true;
   data_.sampling.x = index;
-  trace_with(commands, Stage::samples, {&out_.wavefronts, &out_.sums, &out_.radiance});
+  data_.sample_point = sample_point(static_cast<std::uint32_t>(index), config_.seed);
+  aim(commands);
+  if (variant_.hits_known) {
+    find_hits(commands);
+  }
+  trace_with(commands, Stage::samples,
+             {&out_.sums, &out_.radiance, &out_.hits, &out_.ray_origins, &out_.ray_directions});
+  commands.timestamp("samples");
   commands.barrier();
 }
 

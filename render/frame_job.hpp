@@ -21,6 +21,11 @@ class FrameJob {
 
   void set_range(const MapRange& range);
 
+  // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
+  void record_views(vk::Commands& commands, const vk::Buffer& from);
+  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
+  void record_picture(vk::Commands& commands);
+
   void record_trace(vk::Commands& commands);
   void record_edges(vk::Commands& commands);
   void record_blur(vk::Commands& commands);
@@ -51,7 +56,15 @@ class FrameJob {
   gpu::FrameData data_{};
 };
 
-// Whether a frame of these settings has every pixel's wavefront in memory.
-[[nodiscard]] bool keeps_wavefront(const FrameConfig& config);
+// Views as the kernels take them, kMostViews of them.
+[[nodiscard]] std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses,
+                                                   const std::vector<ViewSetup>& views);
+
+// Whether samples or a map's range come between the picture's trace and its encoding.
+[[nodiscard]] bool encodes_later(const FrameConfig& config);
+
+// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
+// them where each pixel has a focus of its own.
+[[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
 
 }  // namespace render

@@ -8,6 +8,7 @@
 namespace render::gpu {
 using uint = std::uint32_t;
 using glm::ivec4;
+using glm::uvec4;
 using glm::vec4;
 using lenses::f32::EyeData;
 using lenses::f32::LensData;

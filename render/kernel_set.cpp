@@ -11,7 +11,6 @@
 #include "shaders/blur_encode.hpp"
 #include "shaders/chief.hpp"
 #include "shaders/colour.hpp"
-#include "shaders/dof.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
 #include "shaders/find_edges.hpp"
@@ -19,6 +18,7 @@
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
+#include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
 #include "shaders/unsettled.hpp"
 
@@ -39,7 +39,7 @@ std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding>
 }
 
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
-enum class Constants { none, lanes_and_features, scene, chief };
+enum class Constants { none, lanes_and_features, scene, chief, aim, samples };
 
 struct Recipe {
   const char* name;
@@ -52,9 +52,9 @@ Recipe recipe_of(Stage stage) {
   using enum Binding;
   switch (stage) {
     case Stage::rays:
-      return {"rays", shaders::rays, scene_and(3), Constants::scene};
+      return {"rays", shaders::rays, scene_and(3, {texel_rgba32f}), Constants::aim};
     case Stage::unsettled:
-      return {"unsettled", shaders::unsettled, scene_and(3), Constants::scene};
+      return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f}), Constants::aim};
     case Stage::tile:
       return {"tile",
               shaders::tile,
@@ -83,7 +83,8 @@ Recipe recipe_of(Stage stage) {
     case Stage::edges:
       return {"edges", shaders::edges, scene_and(3), Constants::scene};
     case Stage::samples:
-      return {"samples", shaders::dof, scene_and(3), Constants::scene};
+      return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
+              Constants::samples};
     case Stage::blur:
       return {"blur", shaders::blur, {texel_rgba32ui, storage_buffer}, Constants::none};
     case Stage::blur_encode:
@@ -106,7 +107,7 @@ bool can_trace_tiles(const vk::DeviceLimits& limits) {
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
   // By constant id, then the stage.
-  std::array<std::uint32_t, 8> key{};
+  std::array<std::uint32_t, 10> key{};
   key.back() = static_cast<std::uint32_t>(stage);
   std::size_t count = 0;
   if (recipe.constants == Constants::lanes_and_features) {
@@ -119,11 +120,19 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[4] = variant.bare ? 1U : 0U;
     key[5] = variant.newton_steps;
     key[6] = variant.keep_transfer ? 1U : 0U;
-    count = 7;
+    key[7] = variant.view_traits;
+    count = 8;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
     key[3] = variant.keep_wavefront ? 1U : 0U;
+  }
+  if (recipe.constants == Constants::aim || recipe.constants == Constants::samples) {
+    key[8] = (recipe.constants == Constants::aim ? variant.sampled : variant.hits_known) ? 1U : 0U;
+    count = 9;
+  }
+  if (recipe.constants == Constants::samples) {
+    key[0] = 0;  // the lens is behind them
   }
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {

@@ -33,11 +33,14 @@ enum class Stage : std::uint32_t {
 struct TraceVariant {
   std::uint32_t surface_kinds = 0xffffffffU;   // surface_kinds() of gpu_tracer.hpp
   std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
+  std::uint32_t view_traits = 0xffffffffU;     // view_traits() of view_setup.hpp
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
-  bool bare = false;  // one light, no shadow rays
+  bool bare = false;               // one light, no shadow rays
   std::uint32_t newton_steps = 0;  // LensAccuracy::iterations
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
+  bool sampled = false;            // rays are samples of distributed rays
+  bool hits_known = false;         // what samples meet is found by a kernel of its own
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
@@ -52,7 +55,7 @@ class KernelSet {
 
  private:
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 8>, vk::Kernel> kernels_;
+  std::map<std::array<std::uint32_t, 10>, vk::Kernel> kernels_;
 };
 
 }  // namespace render

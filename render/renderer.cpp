@@ -8,27 +8,19 @@
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
 #include "render/map_range.hpp"
+#include "render/sample_error.hpp"
+#include "render/shaders/sample_pattern.h"
 #include "render/traversal_choice.hpp"
 #include "render/vk/commands.hpp"
 
 namespace render {
 namespace {
 
-constexpr int kSamplesASubmission = 8;      // dof
-constexpr int kFewestSamplesToStopOn = 16;  // below, the error estimate itself is too rough
+constexpr int kSamplesASubmission = 8;  // dof
+static_assert(gpu::kEvenSamples % kSamplesASubmission == 0);
 
 std::size_t pixels_of(const FrameConfig& config) {
   return static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
-}
-
-double rms_standard_error(const std::vector<glm::vec4>& sums, int samples) {
-  double total = 0.0;
-  const double n = samples;
-  for (const glm::vec4& s : sums) {
-    const double mean = (0.2126 * s.x + 0.7152 * s.y + 0.0722 * s.z) / n;
-    total += std::max(0.0, s.w / n - mean * mean) / n;
-  }
-  return std::sqrt(total / static_cast<double>(std::max<std::size_t>(sums.size(), 1)));
 }
 
 void add_times(std::vector<vk::StageTime>& sum, const std::vector<vk::StageTime>& more) {
@@ -53,34 +45,23 @@ struct Renderer::State {
                                 const FrameConfig& config, const Progress& progress) {
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
     FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
-                                       .wavefront = keeps_wavefront(config),
+                                       .wavefront = keeps_wavefront(config, views),
                                        .sums = config.mode == Mode::dof,
-                                       .hits = traversal != Traversal::per_ray});
+                                       .hits = traversal != Traversal::per_ray || config.mode == Mode::dof});
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
-    job.record_trace(commands);
-    if (config.mode == Mode::adof || config.mode == Mode::pinhole) {
-      if (!config.bare) {
-        job.record_edges(commands);
-      }
-      job.record_blur(commands);
-    }
-    const bool encode_later = config.mode == Mode::dof || (is_map(config.mode) && !config.range);
-    const bool blur_encodes = !is_map(config.mode) && config.mode != Mode::dof && !config.keep_radiance;
-    if (!encode_later && !blur_encodes) {
-      job.record_encode(commands);
-    }
+    job.record_picture(commands);
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
       take_samples(job, out, config, result, progress);
-    } else if (encode_later) {
+    } else if (encodes_later(config)) {
       result.range = map_range_of(config.mode, out.wavefronts.read<glm::vec4>(2 * out.size.pixels));
       job.set_range(result.range);
     }
-    if (encode_later) {
+    if (encodes_later(config)) {
       vk::Commands last(device);
       job.record_encode(last);
       add_times(result.stages, device.run(last));
@@ -101,16 +82,17 @@ struct Renderer::State {
       for (int i = 0; i < batch; ++i) {
         job.record_sample(commands, frame.samples + i);
       }
-      commands.timestamp("samples");
       add_times(frame.stages, device.run(commands));
       frame.samples += batch;
-      frame.error_estimate = rms_standard_error(out.sums.read<glm::vec4>(out.size.pixels), frame.samples);
       if (progress) {
         progress(frame.samples, config.samples);
       }
-      if (config.target_error && frame.samples >= kFewestSamplesToStopOn &&
-          frame.error_estimate <= *config.target_error) {
-        break;
+      const bool even = frame.samples % gpu::kEvenSamples == 0;  // between, the estimate is worth less
+      if ((config.target_error && even) || frame.samples == config.samples) {
+        frame.error_estimate = rms_standard_error(out.sums.read<glm::vec4>(out.size.pixels), frame.samples);
+        if (config.target_error && frame.error_estimate <= *config.target_error) {
+          break;
+        }
       }
     }
   }
@@ -137,7 +119,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                const FrameConfig& config, const Progress& progress) {
-  const std::size_t bytes_a_view = pixels_of(config) * (keeps_wavefront(config) ? kWavefrontBytes : kPixelBytes);
+  const std::size_t bytes_a_view = pixels_of(config) * (keeps_wavefront(config, views) ? kWavefrontBytes : kPixelBytes);
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);
@@ -171,6 +153,12 @@ void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSe
   small.width = small.height = 8;
   small.samples = 1;
   (void)render(lenses, views, small);
+}
+
+RendererParts Renderer::parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                              const FrameConfig& config) {
+  State& s = *state_;
+  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, lenses, views, config)};
 }
 
 std::size_t Renderer::kernels_made() const {

@@ -67,6 +67,14 @@ struct RenderedFrame {
 
 using Progress = std::function<void(int done, int of)>;
 
+class KernelSet;
+struct RendererParts {
+  vk::Device& device;
+  const SceneBuffers& scene;
+  KernelSet& kernels;
+  Traversal traversal;
+};
+
 class Renderer {
  public:
   Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config = {});
@@ -86,6 +94,10 @@ class Renderer {
   void prepare(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config);
 
   [[nodiscard]] std::size_t kernels_made() const;
+
+  // For the other files of this folder: what frames are made with, and how those of these settings find the scene.
+  [[nodiscard]] RendererParts parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
+                                    const FrameConfig& config);
 
  private:
   struct State;

@@ -25,7 +25,7 @@ class TimedTrace {
         traversal_(traversal),
         out_(device,
              {.pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * views.size(),
-              .wavefront = keeps_wavefront(frame),
+              .wavefront = keeps_wavefront(frame, views),
               .hits = traversal != Traversal::per_ray}),
         job_(device, scene, kernels, out_, lenses, views, frame, traversal),
         commands_(device) {

@@ -4,6 +4,8 @@ const int kViewingFixed = 0;
 const int kViewingScanning = 1;
 const int kViewingGaze = 2;
 
+#define IS_VIEWING(viewing, k) ((VIEWINGS & (1u << uint(k))) != 0u && (VIEWINGS == (1u << uint(k)) || (viewing) == (k)))
+
 struct TraceInput {
   vec4 direction;  // from the pupil outward, primary axes, unit; w: 1/distance from the front surface, 0 at infinity
   vec4 gaze;       // primary axes, unit
@@ -21,10 +23,13 @@ struct TraceOutput {
 };
 
 VG_FUNCTION mat3 eye_turn(int viewing, vec3 gaze, vec3 direction) {
-  if (viewing == kViewingFixed) {
+  if (IS_VIEWING(viewing, kViewingFixed)) {
     return mat3(real(1));
   }
-  return viewing == kViewingScanning ? listing_rotation(direction) : listing_rotation(gaze);
+  if (IS_VIEWING(viewing, kViewingScanning)) {
+    return listing_rotation(direction);
+  }
+  return listing_rotation(gaze);
 }
 
 VG_FUNCTION TraceOutput trace_record(TABLE_PARAM LensData lens, EyeData eye, TraceInput ray) {

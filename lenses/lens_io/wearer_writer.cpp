@@ -2,6 +2,7 @@
 
 #include "lenses/lens_io/json_text.hpp"
 #include "lenses/lens_io/lens_io.hpp"
+#include "lenses/lens_io/live_config_reader.hpp"
 #include "lenses/lens_io/written_number.hpp"
 
 namespace lenses {
@@ -81,7 +82,9 @@ std::string to_json(const Wearer& wearer) {
   ordered_json viewers = ordered_json::object();
   if (wearer.viewer[0]) viewers["right"] = viewer_object(*wearer.viewer[0]);
   if (wearer.viewer[1]) viewers["left"] = viewer_object(*wearer.viewer[1]);
+  if (wearer.viewer_age) viewers["age"] = written(*wearer.viewer_age);
   if (!viewers.empty()) document["viewer"] = std::move(viewers);
+  io::add_live_config(document, wearer.live);
   return io::document_text(document);
 }
 

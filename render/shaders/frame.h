@@ -9,16 +9,17 @@ const int kModeAstigmatism = 4;
 const int kModeAccommodation = 5;
 const int kModeBlur = 6;
 
-// 80 bytes of push constants, the same for every kernel of a frame.
+// 96 bytes of push constants, the same for every kernel of a frame.
 struct FrameData {
   ivec4 size;      // width, height, views, mode
-  ivec4 sampling;  // index of this sample (dof), samples so far, seed, colour map
+  ivec4 sampling;  // index of this sample (dof), -, seed, colour map
   vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor, -
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
-  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl).
+  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl). w: 0.
   ivec4 view;
+  uvec4 sample_point;  // dof: the point that all pixels make their own (sample_pattern.h)
 };
 
 // A traced pixel, 16 bytes: radiance and the blur ellipse as half floats, the depth beside them.

@@ -28,7 +28,7 @@ vec2 picture_tangents(ViewData view, vec2 at) {
 // The direction in primary axes that a pixel stands for, from the pupil.
 vec3 pixel_direction(ViewData view, vec2 at) {
   vec3 direction = normalize(picture_axes(view) * vec3(picture_tangents(view, at), -1.0));
-  if (view.virtual_image.x > 0.0) {
+  if (MAY_BE_VIRTUAL && view.virtual_image.x > 0.0) {
     // A headset's pixel is a point of its virtual image, seen from where the pupil really is.
     vec3 point = vec3(0.0, 0.0, view.virtual_image.y) + view.virtual_image.x * direction;
     int viewing = int(view.gaze.w);
@@ -61,7 +61,7 @@ Beam pixel_beam(ViewData view, PixelRay ray) {
   vec3 e2 = line.e_v;
   if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
     // The basis that the transfer carries along (refract_transfer), in the lens's axes and back.
-    mat3 frame = view.lens.mount.x == 1 ? line.turn : mat3(1.0);
+    mat3 frame = IS_ON_EYE(view.lens) ? line.turn : mat3(1.0);
     vec3 f = to_lens_direction(view.lens, transpose(frame) * line.e_h);
     f = normalize(f - dot(f, line.path.direction_glass) * line.path.direction_glass);
     f = normalize(f - dot(f, line.path.direction_object) * line.path.direction_object);
@@ -76,7 +76,7 @@ Beam pixel_beam(ViewData view, PixelRay ray) {
   vec2 px = step_x * vec2(dot(view.picture_x.xyz, line.e_h), dot(view.picture_x.xyz, line.e_v));
   vec2 py = step_y * vec2(dot(view.picture_y.xyz, line.e_h), dot(view.picture_y.xyz, line.e_v));
   // The scanning eye's pupil moves along with the direction.
-  float pupil = int(view.gaze.w) == kViewingScanning ? view.eye.pupil.y : 0.0;
+  float pupil = IS_VIEWING(int(view.gaze.w), kViewingScanning) ? view.eye.pupil.y : 0.0;
   mat2 x = ray.transfer.b + pupil * ray.transfer.a;
   mat2 p = ray.transfer.d + pupil * ray.transfer.c;
   vec2 x_across = x * px;
@@ -117,17 +117,18 @@ PixelRay aim_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 moment
   return unseen_ray(trace_sight_line(view.lens, view.eye, turn, direction, pupil_offset, momentum));
 }
 
-// Completes a ray that is no rim: the layers along it, front to back; what blends lets the rest through. Depth, normal
-// and material are those of the layer that the eye sees most of: the first with more than half of the light in front of
-// its back. known: `met` and `hit` say already what the first layer is.
-void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool met, Hit hit) {
-  if (ray.status == kStatusOk) {
-    ray.transfer = sight_line_transfer(view.lens, ray.line);
-  }
-  Beam beam;
-  if (HAS(kFeatureTexture)) {
-    beam = pixel_beam(view, ray);
-  }
+struct Sight {
+  vec3 radiance;
+  float depth;  // as PixelRay's
+  vec3 normal;
+  uint material;
+};
+
+// The layers along a ray, front to back; what blends lets the rest through. Depth, normal and material are those of the
+// layer that the eye sees most of: the first with more than half of the light in front of its back. known: `met` and
+// `hit` say already what the first layer is.
+Sight look_along(SceneRay beyond, Beam beam, bool known, bool met, Hit hit) {
+  Sight sight;
   vec3 radiance = vec3(0.0);
   float through = 1.0;
   float before = 0.0;  // m from where the ray left for the scene
@@ -160,11 +161,11 @@ void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool me
     through -= share;
     if (!decided && (last || through <= 0.5)) {
       decided = true;
-      ray.depth = depth;
-      ray.normal = surface.normal;
-      ray.material = met ? hit.material : 0xffffu;
+      sight.depth = depth;
+      sight.normal = surface.normal;
+      sight.material = met ? hit.material : 0xffffu;
       if (layer > 0) {
-        ray.material ^= (first_material + 1u) << 5;  // the edge of a pane is an edge
+        sight.material ^= (first_material + 1u) << 5;  // the edge of a pane is an edge
       }
     }
     if (last || through < 1.0 / 512.0) {
@@ -175,12 +176,32 @@ void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool me
     beyond.origin += on * beyond.direction;
     before += on;
   }
-  ray.radiance = radiance;
-  if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
-    ray.radiance *= view.tint.rgb;
+  sight.radiance = radiance;
+  return sight;
+}
+
+// What the spectacles' tint lets through. Half floats end at 65504; nothing may leave as an infinity.
+vec3 seen_radiance(ViewData view, int status, vec3 radiance) {
+  if (view.lens.glass.w != 0.0 && status == kStatusOk) {
+    radiance *= view.tint.rgb;
   }
-  // Half floats end at 65504; nothing may leave as an infinity.
-  ray.radiance = clamp(ray.radiance, vec3(0.0), vec3(65000.0));
+  return clamp(radiance, vec3(0.0), vec3(65000.0));
+}
+
+// Completes a ray that is no rim.
+void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool met, Hit hit) {
+  if (ray.status == kStatusOk) {
+    ray.transfer = sight_line_transfer(view.lens, ray.line);
+  }
+  Beam beam;
+  if (HAS(kFeatureTexture)) {
+    beam = pixel_beam(view, ray);
+  }
+  Sight sight = look_along(beyond, beam, known, met, hit);
+  ray.radiance = seen_radiance(view, ray.status, sight.radiance);
+  ray.depth = sight.depth;
+  ray.normal = sight.normal;
+  ray.material = sight.material;
 }
 
 PixelRay trace_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {

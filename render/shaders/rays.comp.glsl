@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The ray of every pixel's centre beyond the lens; those whose path does not settle at once are listed.
+// The ray of every pixel beyond the lens, the chief one or a sample; those whose path does not settle at once are listed.
 #define HURRIED true
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/aim.glsl"
 #include "render/shaders/ray_out.glsl"
 #include "render/shaders/list.glsl"
 
@@ -19,7 +20,7 @@ void main() {
   }
   ViewData view = views[eye];
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
-  PixelRay ray = aim_pixel(view, pixel_direction(view, vec2(p) + 0.5), vec2(0.0), vec2(0.0));
+  PixelRay ray = aim_pixel(view, p, at);
   if (LENS_USED && ray.status == kStatusUnsettled) {
     APPEND(unsettled, uint(at))
   }

@@ -4,6 +4,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/aim.glsl"
 #include "render/shaders/ray_out.glsl"
 
 layout(local_size_x = 64) in;
@@ -15,7 +16,6 @@ void main() {
   for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
     int at = int(unsettled[kListFirstAt + i]);
     int in_view = at - frame.view.x * frame.size.x * frame.size.y;
-    vec2 p = vec2(float(in_view % frame.size.x), float(in_view / frame.size.x));
-    leave_ray(view, aim_pixel(view, pixel_direction(view, p + 0.5), vec2(0.0), vec2(0.0)), at);
+    leave_ray(view, aim_pixel(view, ivec2(in_view % frame.size.x, in_view / frame.size.x), at), at);
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string_view>
 
+#include "render/vk/external.hpp"
 #include "render/vk/handles.hpp"
 #include "render/vk/pipeline_cache.hpp"
 
@@ -38,7 +39,9 @@ DeviceLimits limits_of(const raii::PhysicalDevice& physical, const ::vk::QueueFa
 }
 
 using FeatureChain =
-    ::vk::StructureChain<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features,
+    ::vk::StructureChain<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceScalarBlockLayoutFeatures,
+                         ::vk::PhysicalDeviceUniformBufferStandardLayoutFeatures,
+                         ::vk::PhysicalDeviceBufferDeviceAddressFeatures,
                          ::vk::PhysicalDeviceAccelerationStructureFeaturesKHR, ::vk::PhysicalDeviceRayQueryFeaturesKHR>;
 
 constexpr std::array kRayQueryExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
@@ -59,7 +62,8 @@ bool has_ray_query(const raii::PhysicalDevice& physical) {
 }
 
 // Of what the device offers, what the shaders may use: the parity tests want doubles, the structs shared by C++ and
-// GLSL scalar layout.
+// GLSL scalar layout. One structure a feature: a maker that adds its own to the chain (timeline semaphores) may not
+// find the one of all of Vulkan 1.2 there.
 FeatureChain features_to_enable(const raii::PhysicalDevice& physical, bool ray_query) {
   const auto offered = physical.getFeatures2<::vk::PhysicalDeviceFeatures2, ::vk::PhysicalDeviceVulkan12Features>();
   const auto& core = offered.get<::vk::PhysicalDeviceFeatures2>().features;
@@ -67,10 +71,10 @@ FeatureChain features_to_enable(const raii::PhysicalDevice& physical, bool ray_q
   FeatureChain wanted;
   wanted.get<::vk::PhysicalDeviceFeatures2>().features.setShaderFloat64(core.shaderFloat64);
   wanted.get<::vk::PhysicalDeviceFeatures2>().features.setShaderInt64(core.shaderInt64);
-  wanted.get<::vk::PhysicalDeviceVulkan12Features>()
-      .setScalarBlockLayout(core12.scalarBlockLayout)
-      .setUniformBufferStandardLayout(core12.uniformBufferStandardLayout)
-      .setBufferDeviceAddress(ray_query);
+  wanted.get<::vk::PhysicalDeviceScalarBlockLayoutFeatures>().setScalarBlockLayout(core12.scalarBlockLayout);
+  wanted.get<::vk::PhysicalDeviceUniformBufferStandardLayoutFeatures>().setUniformBufferStandardLayout(
+      core12.uniformBufferStandardLayout);
+  wanted.get<::vk::PhysicalDeviceBufferDeviceAddressFeatures>().setBufferDeviceAddress(ray_query);
   wanted.get<::vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().setAccelerationStructure(VK_TRUE);
   wanted.get<::vk::PhysicalDeviceRayQueryFeaturesKHR>().setRayQuery(VK_TRUE);
   if (!ray_query) {
@@ -81,13 +85,25 @@ FeatureChain features_to_enable(const raii::PhysicalDevice& physical, bool ray_q
 }
 
 raii::Device create_device(const raii::PhysicalDevice& physical, std::uint32_t queue_family,
-                           const FeatureChain& features, bool ray_query) {
+                           const FeatureChain& features, bool ray_query, const Instance& instance,
+                           const DeviceMaker* maker) {
   const float priority = 1.0F;
   const ::vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
   ::vk::DeviceCreateInfo info({}, queue);
   info.setPNext(&features.get<::vk::PhysicalDeviceFeatures2>());
   if (ray_query) info.setPEnabledExtensionNames(kRayQueryExtensions);
-  return {physical, info};
+  if (maker == nullptr) return {physical, info};
+  const VkDeviceCreateInfo& plain = info;
+  return {physical, maker->make_device(*physical, plain, instance.context.getDispatcher()->vkGetInstanceProcAddr)};
+}
+
+// A maker's own work on the queue may be drawing.
+std::uint32_t choose_queue_family(const raii::PhysicalDevice& physical, const DeviceMaker* maker) {
+  if (maker != nullptr) {
+    const auto family = queue_family_with(physical, ::vk::QueueFlagBits::eCompute | ::vk::QueueFlagBits::eGraphics);
+    if (family != VK_QUEUE_FAMILY_IGNORED) return family;
+  }
+  return compute_queue_family(physical);
 }
 
 DriverId driver_id(const raii::PhysicalDevice& physical) {
@@ -97,10 +113,12 @@ DriverId driver_id(const raii::PhysicalDevice& physical) {
 
 }  // namespace
 
-DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(wanted.validation) {
-  physical = pick_device(usable_devices(instance), config.device);
+DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(wanted.validation, wanted.maker) {
+  const DeviceMaker* const maker = std::exchange(config.maker, nullptr);
+  physical = maker != nullptr ? given_device(instance, *maker, config.device)
+                              : pick_device(usable_devices(instance), config.device);
   name = physical.getProperties().deviceName.data();
-  queue_family = compute_queue_family(physical);
+  queue_family = choose_queue_family(physical, maker);
   const auto family = physical.getQueueFamilyProperties()[queue_family];
   const std::uint32_t bits = family.timestampValidBits;
   timestamp_mask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
@@ -109,7 +127,7 @@ DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(
     const FeatureChain features = features_to_enable(physical, ray_query);
     limits = limits_of(physical, family, bool(features.get<::vk::PhysicalDeviceFeatures2>().features.shaderFloat64));
     limits.has_ray_query = ray_query;
-    device = create_device(physical, queue_family, features, ray_query);
+    device = create_device(physical, queue_family, features, ray_query, instance, maker);
     queue = device.getQueue(queue_family, 0);
     pool = {device, {::vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family}};
     std::vector<std::uint8_t> cached;

@@ -15,6 +15,7 @@ namespace render::vk {
 
 class Commands;
 struct DeviceState;
+struct DeviceMaker;
 
 // No Vulkan loader or driver, no such device, a size beyond the device's limits, out of memory, device lost.
 class DeviceError : public std::runtime_error {
@@ -32,6 +33,8 @@ struct DeviceConfig {
   std::filesystem::path pipeline_cache = {};
   // False: Memory::device is never mapped, as on a GPU whose bus shows the host none of it; everything is staged.
   bool map_device_memory = true;
+  // Makes the device in our place (external.hpp) and picks it; `device` is then only checked. Used while opening.
+  const DeviceMaker* maker = nullptr;
 };
 
 struct DeviceLimits {

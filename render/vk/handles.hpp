@@ -51,7 +51,7 @@ class MessageLog {
 
 // Loader, instance and, with validation, the messenger that fills the log.
 struct Instance {
-  explicit Instance(bool validation);
+  explicit Instance(bool validation, const DeviceMaker* maker = nullptr);
 
   MessageLog log;  // before the instance: the messenger writes to it until the instance is gone
   raii::Context context;
@@ -62,9 +62,14 @@ struct Instance {
 // The devices that this layer can use: Vulkan 1.2 and a queue with compute.
 [[nodiscard]] std::vector<raii::PhysicalDevice> usable_devices(const Instance& instance);
 [[nodiscard]] std::uint32_t compute_queue_family(const raii::PhysicalDevice& device);
+// The first of its families that has all of `flags`; VK_QUEUE_FAMILY_IGNORED without one.
+[[nodiscard]] std::uint32_t queue_family_with(const raii::PhysicalDevice& device, ::vk::QueueFlags flags);
 // As DeviceConfig::device says; throws DeviceError with the names of those present.
 [[nodiscard]] raii::PhysicalDevice pick_device(const std::vector<raii::PhysicalDevice>& devices,
                                                const std::string& wanted);
+// The one that its maker says; throws DeviceError where that is not `wanted` or lacks what this layer needs.
+[[nodiscard]] raii::PhysicalDevice given_device(const Instance& instance, const DeviceMaker& maker,
+                                                const std::string& wanted);
 
 struct DeviceState {
   explicit DeviceState(const DeviceConfig& config);

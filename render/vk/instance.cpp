@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "render/vk/external.hpp"
 #include "render/vk/handles.hpp"
 
 namespace render::vk {
@@ -45,10 +46,18 @@ raii::Context load_vulkan() {
   }
 }
 
-raii::Instance create_instance(const raii::Context& context, MessageLog& log, bool validation) {
+raii::Instance make_instance(const raii::Context& context, const ::vk::InstanceCreateInfo& info,
+                             const DeviceMaker* maker) {
+  if (maker == nullptr) return {context, info};
+  const VkInstanceCreateInfo& plain = info;
+  return {context, maker->make_instance(plain, context.getDispatcher()->vkGetInstanceProcAddr)};
+}
+
+raii::Instance create_instance(const raii::Context& context, MessageLog& log, bool validation,
+                               const DeviceMaker* maker) {
   const ::vk::ApplicationInfo application("vergence", 1, nullptr, 0, VK_API_VERSION_1_2);
   ::vk::InstanceCreateInfo info({}, &application);
-  if (!validation) return {context, info};
+  if (!validation) return make_instance(context, info, maker);
 
   require_validation_layer(context);
   const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
@@ -57,7 +66,7 @@ raii::Instance create_instance(const raii::Context& context, MessageLog& log, bo
   const ::vk::ValidationFeaturesEXT checks(features, {}, &messenger);
   const std::array layers{kValidationLayer};
   info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions).setPNext(&checks);
-  return {context, info};
+  return make_instance(context, info, maker);
 }
 
 std::string lower_case(std::string text) {
@@ -88,17 +97,21 @@ const raii::PhysicalDevice& best_of(const std::vector<raii::PhysicalDevice>& dev
 
 }  // namespace
 
-Instance::Instance(bool validation) : context(load_vulkan()) {
+Instance::Instance(bool validation, const DeviceMaker* maker) : context(load_vulkan()) {
   guarded("opening Vulkan", [&] {
-    instance = create_instance(context, log, validation);
+    instance = create_instance(context, log, validation, maker);
     if (validation) messenger = {instance, messenger_info(log)};
   });
 }
 
 std::uint32_t compute_queue_family(const raii::PhysicalDevice& device) {
+  return queue_family_with(device, ::vk::QueueFlagBits::eCompute);
+}
+
+std::uint32_t queue_family_with(const raii::PhysicalDevice& device, ::vk::QueueFlags flags) {
   const auto families = device.getQueueFamilyProperties();
-  const auto found = std::ranges::find_if(
-      families, [](const auto& family) { return bool(family.queueFlags & ::vk::QueueFlagBits::eCompute); });
+  const auto found =
+      std::ranges::find_if(families, [&](const auto& family) { return (family.queueFlags & flags) == flags; });
   return found == families.end() ? VK_QUEUE_FAMILY_IGNORED : static_cast<std::uint32_t>(found - families.begin());
 }
 
@@ -130,6 +143,20 @@ raii::PhysicalDevice pick_device(const std::vector<raii::PhysicalDevice>& device
     if (lower_case(name_of(device)).find(lower_case(wanted)) != std::string::npos) return device;
   }
   throw_not_found(devices, wanted);
+}
+
+raii::PhysicalDevice given_device(const Instance& instance, const DeviceMaker& maker, const std::string& wanted) {
+  raii::PhysicalDevice device(instance.instance, maker.pick_device(*instance.instance));
+  const std::string name = name_of(device);
+  if (device.getProperties().apiVersion < VK_API_VERSION_1_2 ||
+      compute_queue_family(device) == VK_QUEUE_FAMILY_IGNORED) {
+    throw DeviceError("the headset hangs on " + name + ", which lacks Vulkan 1.2 or a compute queue");
+  }
+  if (!wanted.empty() && *pick_device(usable_devices(instance), wanted) != *device) {
+    throw DeviceError("'" + wanted + "' is not the device that the headset hangs on, " + name +
+                      "; leave the option out");
+  }
+  return device;
 }
 
 }  // namespace render::vk

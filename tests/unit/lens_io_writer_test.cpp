@@ -170,6 +170,15 @@ TEST(Schemas, NameTheKeysThatReadersAllow) {
   EXPECT_EQ(allowed_keys(kWearer, in("/right", good_wearer())), schema("wearer", "/$defs/eye"));
   EXPECT_EQ(allowed_keys(kWearer, in("/right/refraction", good_wearer())), schema("wearer", "/$defs/refraction"));
   EXPECT_EQ(allowed_keys(kWearer, in("/viewer/right", good_wearer())), schema("wearer", "/$defs/viewer"));
+  EXPECT_EQ(allowed_keys(kWearer, in("/viewer", good_wearer())), schema("wearer", "/properties/viewer"));
+  json live = good_wearer();
+  live.update(json::parse(R"({"accommodation": {}, "pupil": {}, "tracking": {"target": {}, "saccade": {}}})"));
+  for (const char* part : {"accommodation", "pupil", "tracking"}) {
+    EXPECT_EQ(allowed_keys(kWearer, in((std::string("/") + part).c_str(), live)),
+              schema("wearer", std::string("/$defs/") + part));
+  }
+  EXPECT_EQ(allowed_keys(kWearer, in("/tracking/target", live)), schema("wearer", "/$defs/one_euro"));
+  EXPECT_EQ(allowed_keys(kWearer, in("/tracking/saccade", live)), schema("wearer", "/$defs/saccade"));
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ using Action = std::function<int()>;
 [[nodiscard]] Action add_render_command(CLI::App& program);
 [[nodiscard]] Action add_bench_command(CLI::App& program);
 [[nodiscard]] Action add_measure_command(CLI::App& program);
+[[nodiscard]] Action add_tradeoff_command(CLI::App& program);
 [[nodiscard]] Action add_trace_command(CLI::App& program);
+[[nodiscard]] Action add_vr_command(CLI::App& program);
 [[nodiscard]] Action add_lens_command(CLI::App& program);
 
 // The commands of `lens`, each in a file of its own.

@@ -108,7 +108,9 @@ int run(int argc, char** argv) {
   actions["render"] = app::add_render_command(program);
   actions["bench"] = app::add_bench_command(program);
   actions["measure"] = app::add_measure_command(program);
+  actions["tradeoff"] = app::add_tradeoff_command(program);
   actions["trace"] = app::add_trace_command(program);
+  actions["vr"] = app::add_vr_command(program);
   actions["lens"] = app::add_lens_command(program);
   try {
     program.parse(argc, argv);

@@ -118,6 +118,11 @@ std::filesystem::path traversal_file() {
   return pipelines.empty() ? pipelines : pipelines.parent_path() / "traversal.txt";
 }
 
+std::filesystem::path reference_folder() {
+  const std::filesystem::path pipelines = pipeline_cache_file();
+  return pipelines.empty() ? pipelines : pipelines.parent_path() / "references";
+}
+
 std::filesystem::path pipeline_cache_file() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0') {
     return std::filesystem::path(cache) / "vergence" / "pipelines.bin";

@@ -31,6 +31,9 @@ void check_range(const std::string& option, double value, double lo, double hi, 
 // Where the renderer keeps which traversal is faster; empty where there is no place for it.
 [[nodiscard]] std::filesystem::path traversal_file();
 
+// Where converged pictures are kept between runs; empty where there is no place for them.
+[[nodiscard]] std::filesystem::path reference_folder();
+
 // Where compiled pipelines are kept between runs; empty where there is no place for them.
 [[nodiscard]] std::filesystem::path pipeline_cache_file();
 

@@ -9,13 +9,14 @@
 
 #include "app/commands.hpp"
 #include "app/device.hpp"
+#include "app/mode_option.hpp"
+#include "app/output_place.hpp"
 #include "app/picture.hpp"
 #include "app/render_report.hpp"
 #include "app/render_setup.hpp"
 #include "app/scene_options.hpp"
 #include "render/image/colour_bar.hpp"
 #include "render/image/exr.hpp"
-#include "render/image/output_error.hpp"
 #include "render/image/png.hpp"
 #include "render/ladder.hpp"
 #include "render/renderer.hpp"
@@ -30,7 +31,7 @@ using tracking::InputError;
 struct RenderOptions {
   SceneOptions scene;
   PictureOptions picture;
-  std::string mode = "adof";
+  std::string mode;  // empty: the rung's, or adof
   std::optional<int> samples;
   std::optional<double> target_error;
   std::string range;
@@ -44,24 +45,10 @@ struct RenderOptions {
   bool json = false;
 };
 
-const std::vector<std::string> kModes{"pinhole",     "adof",          "dof", "power",
-                                      "astigmatism", "accommodation", "blur"};  // in the order of render::Mode
-
 constexpr int kMostSamples = 65536, kDefaultSamples = 64, kSamplesForTarget = 4096;
 
 bool is_exr(const std::string& output) {
   return std::filesystem::path(output).extension() == ".exr";
-}
-
-// Said before minutes of work rather than after.
-void check_place(const std::string& file) {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw render::OutputError(file, "", "cannot be written: there is no folder " + folder.string());
-  }
-  if (::access(folder.empty() ? "." : folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(file)) {
-    throw render::OutputError(file, "", "cannot be written: a file in a writable folder is expected");
-  }
 }
 
 void check_options(const RenderOptions& options) {
@@ -99,10 +86,6 @@ std::optional<render::MapRange> range_of(const RenderOptions& options) {
     throw InputError("--range", "", "'" + options.range + "' must have LO below HI");
   }
   return render::MapRange{v[0], v[1]};
-}
-
-Mode mode_of(const std::string& name) {
-  return static_cast<Mode>(std::ranges::find(kModes, name) - kModes.begin());
 }
 
 render::FrameConfig frame_config(const RenderOptions& options, const RenderSetup& setup) {
@@ -198,13 +181,27 @@ RenderReport report_of(const RenderOptions& options, const RenderSetup& setup, c
   report.range_high = drawn.frame.range.high;
   report.range_unit = map_unit(config.mode);
   report.sight = sight_rows(setup);
+  report.findings = viewer_report(setup);
   report.stages = stage_rows(drawn.runs);
   report.peak_memory_mib = peak_memory_mib();
   return report;
 }
 
-int render_picture(const RenderOptions& options) {
+// A rung may say the mode and the samples too; what is given beside it has the last word.
+RenderOptions with_rung(RenderOptions options) {
+  const render::Rung& rung = *render::find_rung(options.picture.accuracy);
+  if (options.mode.empty()) {
+    options.mode = mode_names()[static_cast<std::size_t>(rung.mode.value_or(Mode::adof))];
+  }
+  if (!options.samples && !options.target_error && options.mode == "dof") {
+    options.samples = rung.samples;
+  }
+  return options;
+}
+
+int render_picture(const RenderOptions& given) {
   StartUp start_up;
+  const RenderOptions options = with_rung(given);
   check_options(options);
   const std::string scene_file = options.scene.scene.empty() ? built_in_scene().string() : options.scene.scene;
   const render::Scene scene = render::read_gltf(scene_file);
@@ -255,11 +252,10 @@ Action add_render_command(CLI::App& program) {
       "The picture is centred on the gaze; head and lens stay where they are.");
   add_scene_options(*command, options->scene);
   add_view_options(*command, options->scene);
-  command->add_option("--mode", options->mode, "What the picture shows")
-      ->check(CLI::IsMember(kModes))
-      ->capture_default_str();
+  command->add_option("--mode", options->mode, "What the picture shows [adof, or what --accuracy asks for]")
+      ->check(CLI::IsMember(mode_names()));
   add_picture_options(*command, options->picture);
-  auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64]");
+  auto* samples = command->add_option("--samples", options->samples, "Rays a pixel (dof) [64, or as --accuracy says]");
   command
       ->add_option("--target-error", options->target_error,
                    "Stop when the standard error of the mean luminance falls below this (dof)")

@@ -143,6 +143,9 @@ std::string to_table(const RenderReport& report) {
         << fixed_number(row.blur_minor_arcmin, 1, 5) << "  " << row.pair
         << (row.status == "ok" ? "" : " (" + row.status + ")") << "\n";
   }
+  if (!report.findings.empty()) {
+    out << "\n" << to_table(report.findings);
+  }
   out << "\nstage      median ms     min ms     max ms\n";
   for (const StageRow& row : report.stages) {
     out << std::left << std::setw(8) << row.stage << std::right << fixed_number(row.median_ms, 2, 12)
@@ -184,6 +187,9 @@ std::string to_json(const RenderReport& report) {
     s["residual_D"] = row.residual_D;
     s["blur_arcmin"] = {row.blur_major_arcmin, row.blur_minor_arcmin};
     j["sight"].push_back(s);
+  }
+  if (!report.findings.empty()) {
+    j["findings"] = to_json_array(report.findings);
   }
   for (const auto& [name, ms] : report.start_up) {
     j["start_up_ms"][name] = ms;

@@ -7,6 +7,7 @@
 
 #include "app/render_setup.hpp"
 #include "app/start_up.hpp"
+#include "app/viewer_report.hpp"
 #include "render/vk/device.hpp"
 
 namespace app {
@@ -43,6 +44,7 @@ struct RenderReport {
   double range_low = 0.0, range_high = 0.0;
   std::string range_unit;
   std::vector<SightRow> sight;
+  std::vector<ViewerFinding> findings;
   std::vector<StageRow> stages;
   StartUp::Parts start_up;
   double peak_memory_mib = 0.0;

@@ -25,19 +25,6 @@ constexpr double kNearestTarget_m = 0.02;  // spectacles and eye lie within
 // The field that a headset's picture fills, for the pupil's size: a circle 60 degrees across.
 constexpr double kHeadsetField_deg2 = std::numbers::pi * 30.0 * 30.0;
 
-Pose head_pose(const SceneOptions& options, const render::Scene& scene) {
-  if (options.pose.empty()) {
-    return scene.start_pose.value_or(Pose{});
-  }
-  const auto v = numbers_of("--pose", options.pose, 5, "X,Y,Z,YAW,PITCH in metres and degrees, such as 0,1.2,0,-10,0");
-  for (int i = 0; i < 3; ++i) {
-    check_range("--pose", v[static_cast<std::size_t>(i)], -1e5, 1e5, "m");
-  }
-  check_range("--pose", v[3], -360.0, 360.0, "deg of yaw");
-  check_range("--pose", v[4], -90.0, 90.0, "deg of pitch");
-  return {tracking::orientation_from_yaw_pitch(v[3] * kRadians, v[4] * kRadians), {v[0], v[1], v[2]}};
-}
-
 glm::dvec3 gaze_direction(const SceneOptions& options) {
   const auto v = numbers_of("--gaze", options.gaze, 2, "YAW,PITCH in degrees, such as 10,-25");
   for (const double angle : v) {
@@ -144,6 +131,19 @@ render::ViewSetup view_of(const RenderSetup& setup, const WornPair& pair, Side s
 
 }  // namespace
 
+Pose start_pose(const SceneOptions& options, const render::Scene& scene) {
+  if (options.pose.empty()) {
+    return scene.start_pose.value_or(Pose{});
+  }
+  const auto v = numbers_of("--pose", options.pose, 5, "X,Y,Z,YAW,PITCH in metres and degrees, such as 0,1.2,0,-10,0");
+  for (int i = 0; i < 3; ++i) {
+    check_range("--pose", v[static_cast<std::size_t>(i)], -1e5, 1e5, "m");
+  }
+  check_range("--pose", v[3], -360.0, 360.0, "deg of yaw");
+  check_range("--pose", v[4], -90.0, 90.0, "deg of pitch");
+  return {tracking::orientation_from_yaw_pitch(v[3] * kRadians, v[4] * kRadians), {v[0], v[1], v[2]}};
+}
+
 Viewing viewing_of(const std::string& name) {
   return name == "fixed" ? Viewing::fixed : name == "scanning" ? Viewing::scanning : Viewing::gaze;
 }
@@ -153,9 +153,11 @@ RenderSetup make_render_setup(const SceneOptions& options, const render::Scene& 
   if (!options.wearer.empty()) {
     setup.wearer = lenses::read_wearer(options.wearer);
   }
-  std::optional<lenses::HeadsetDisplay> headset;
+  std::optional<lenses::HeadsetDisplay>& headset = setup.headset;
   if (!options.headset.empty()) {
     headset = lenses::read_headset(options.headset);
+  } else if (options.in_headset) {
+    headset = lenses::HeadsetDisplay{};
   }
   check_range("--fov", options.fov_deg, 1.0, 170.0, "deg");
   setup.size = size_of("--size", options.size);
@@ -167,7 +169,7 @@ RenderSetup make_render_setup(const SceneOptions& options, const render::Scene& 
   if (options.eye != "left") {
     setup.sides.push_back(Side::right);
   }
-  const Pose world_from_head = head_pose(options, scene);
+  const Pose world_from_head = start_pose(options, scene);
   setup.pairs.push_back(wear(setup, read_pair(options.spectacles), options.spectacles, world_from_head, headset));
   if (!options.compare.empty()) {
     setup.pairs.push_back(wear(setup, read_pair(options.compare), options.compare, world_from_head, headset));

@@ -21,8 +21,9 @@ struct SceneOptions {
   std::string scene;   // empty: the built-in reading room
   std::string wearer;  // empty: 35 years, emmetropic
   std::string spectacles = "none";
-  std::string compare;  // a second pair, empty: none
-  std::string headset;  // empty: a desktop picture
+  std::string compare;      // a second pair, empty: none
+  std::string headset;      // empty: a desktop picture
+  bool in_headset = false;  // there is one, whether or not a file tells of it
   std::string viewing = "gaze";
   std::string gaze = "0,0";  // yaw, pitch in degrees
   std::string look_at;       // a target's name
@@ -47,9 +48,13 @@ struct RenderSetup {
   std::vector<WornPair> pairs;        // one, or A and B
   std::vector<tracking::Side> sides;  // the eyes shown, in the picture's order from the left
   std::array<int, 2> size{};
+  std::optional<lenses::HeadsetDisplay> headset;
   render::Viewing viewing = render::Viewing::gaze;
   std::vector<render::ViewSetup> views;  // pairs x sides, pair by pair
 };
+
+// Where the head stands: --pose, else the scene's camera.
+[[nodiscard]] tracking::Pose start_pose(const SceneOptions& options, const render::Scene& scene);
 
 [[nodiscard]] render::Viewing viewing_of(const std::string& name);
 

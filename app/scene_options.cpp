@@ -20,6 +20,17 @@ std::vector<std::string> rung_names() {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help) {
+  add_wearing_options(command, scene, help);
+  command.add_option("--fov", scene.fov_deg, "Vertical field of view, degrees")->capture_default_str();
+  auto* gaze = command.add_option("--gaze", scene.gaze, "YAW,PITCH in degrees, + right, + up, up to 45 each")
+                   ->capture_default_str();
+  command.add_option("--look-at", scene.look_at, "A target of the scene by name; the picture is centred on it")
+      ->excludes(gaze);
+  command.add_option("--pose", scene.pose,
+                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils [the scene's camera]");
+}
+
+void add_wearing_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help) {
   command.add_option("--scene", scene.scene, help.scene);
   command.add_option("--wearer", scene.wearer, "Wearer file [35 years, emmetropic]");
   auto* spectacles = command.add_option("--spectacles", scene.spectacles, help.spectacles);
@@ -34,13 +45,6 @@ void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& 
       ->check(CLI::IsMember({"fixed", "scanning", "gaze"}))
       ->capture_default_str();
   command.add_option("--headset", scene.headset, "Headset file: pixels lie on its virtual image, light sets the pupil");
-  command.add_option("--fov", scene.fov_deg, "Vertical field of view, degrees")->capture_default_str();
-  auto* gaze = command.add_option("--gaze", scene.gaze, "YAW,PITCH in degrees, + right, + up, up to 45 each")
-                   ->capture_default_str();
-  command.add_option("--look-at", scene.look_at, "A target of the scene by name; the picture is centred on it")
-      ->excludes(gaze);
-  command.add_option("--pose", scene.pose,
-                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils [the scene's camera]");
 }
 
 void add_picture_options(CLI::App& command, PictureOptions& picture) {

@@ -16,6 +16,8 @@ struct SceneHelp {
   std::string compare = "A second pair: A left, B right of a divider in each eye";
 };
 void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help = {});
+// The same without --fov --gaze --look-at --pose, for commands that are told live where eyes and head are.
+void add_wearing_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help = {});
 
 // How the picture is made of it.
 struct PictureOptions {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lays down build/monado with bin/monado-service and share/openxr/1/openxr_monado.json: Monado, the OpenXR runtime that
+# Lays down build/monado with bin/monado-service, bin/monado-ctl and share/openxr/1/openxr_monado.json: Monado, the OpenXR runtime that
 # the tests labelled xr run on. Where Debian has no package of it (Debian 12), it is built from Debian's source archive
 # of trixie into that folder; nothing of another release is installed. Does nothing once it is there.
 set -euo pipefail
@@ -21,7 +21,7 @@ lay_down() {
 if apt-cache policy monado-service | grep -q 'Candidate: [0-9]'; then
   bash cmake/packages.sh monado-service libopenxr1-monado
   mkdir -p "$work/root/bin" "$work/root/share/openxr/1"
-  ln -s "$(command -v monado-service)" "$work/root/bin/"
+  ln -s "$(command -v monado-service)" "$(command -v monado-ctl)" "$work/root/bin/"
   printf '{"file_format_version": "1.0.0", "runtime": {"name": "Monado", "library_path": "%s"}}\n' \
     "$(dpkg -L libopenxr1-monado | grep '/libopenxr_monado\.so$')" >"$work/root/share/openxr/1/openxr_monado.json"
   lay_down

@@ -8,17 +8,23 @@ namespace render {
 enum class LensForm {
   exact,   // the surfaces themselves, each ray traced through both
   mesh,    // two triangle meshes with normals at their vertices, which the paper (section 4) says it avoids
-  bezier,  // Bezier patches behind a bounding volume hierarchy, the paper's way (section 4)
-  field    // rays precomputed on a grid over the view and interpolated (Kakimoto et al. 2007, 2010)
+  bezier,  // free-form surfaces as Bezier patches behind a bounding volume hierarchy, the paper's way (section 4)
+  field    // chief rays precomputed on a grid over the view and interpolated (Kakimoto et al. 2007, 2010)
 };
 
+// Rays at the edges of things, and samples of mode dof, go through the lens in the same form, but for what is
+// interpolated between chief rays (field, spacing): there they pass the exact lens. In double precision are chief rays
+// and samples.
 struct LensAccuracy {
   LensForm form = LensForm::exact;
-  int facets = 0;          // mesh: triangles of each surface
-  int field_side = 0;      // field: precomputed rays along each side of the view
-  int iterations = 0;      // exact: steps of Newton's method for a surface; 0: until they settle
+  int facets = 0;          // mesh: triangles of each surface on the lens's disc, 8 or more
+  int field_side = 0;      // field: precomputed rays along each side of the view, 2 or more
+  int iterations = 0;      // steps of Newton's method for a surface, up to 8; 0: until they settle
   int spacing = 1;         // exact: pixels between rays through the lens, those between interpolated; 1: every pixel
   bool in_double = false;  // exact: surfaces and refraction in double precision on the device
+
+  // std::invalid_argument for what no renderer can do.
+  void validate() const;
 };
 
 enum class BlurKernel {
@@ -28,8 +34,8 @@ enum class BlurKernel {
 
 struct BlurAccuracy {
   BlurKernel kernel = BlurKernel::disc;
-  int taps = 16;  // the fewest of a gathered blur
-  int rate = 1;   // pixels between gathered ones where the minor semi-axis is a pixel or more
+  int taps = 256;  // about the most of a gathered blur; fewer where it has fewer pixels
+  int rate = 2;    // pixels between gathered ones where the minor semi-axis is 4 px or more; 1: every pixel
 };
 
 struct Foveation {

@@ -80,8 +80,6 @@ LineOfSight look_at(const lenses::f64::Table& table, const EyeOptics& eye, Viewi
   return to_world(bare, sight_line(table, bare, viewing, straight), straight);
 }
 
-namespace {
-
 // One neural drive for both eyes: it stops at the eye that asks for less, and each eye follows as far as it can.
 void accommodate(Fixation& fixation, const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes,
                  Viewing viewing) {
@@ -98,8 +96,6 @@ void accommodate(Fixation& fixation, const lenses::f64::Table& table, const std:
 glm::dvec3 midpoint(const std::array<EyeOptics, 2>& eyes) {
   return 0.5 * (eyes[0].world_from_eye.position + eyes[1].world_from_eye.position);
 }
-
-}  // namespace
 
 Fixation fixate(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes, Viewing viewing,
                 const glm::dvec3& point, double distance) {

@@ -43,6 +43,13 @@ struct Fixation {
   std::array<double, 2> accommodation{};  // the state: the lesser demand, limited by each eye's own amplitude, D
 };
 
+// The middle of both pupils in primary gaze, world.
+[[nodiscard]] glm::dvec3 midpoint(const std::array<EyeOptics, 2>& eyes);
+
+// Demands and accommodation of two lines whose gaze and point are known.
+void accommodate(Fixation& fixation, const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes,
+                 Viewing viewing);
+
 // Both eyes on one point of the world.
 [[nodiscard]] Fixation fixate(const lenses::f64::Table& table, const std::array<EyeOptics, 2>& eyes, Viewing viewing,
                               const glm::dvec3& point, double distance);

@@ -1,24 +1,30 @@
 // The device memory of one size of frame, and the way of a finished view back to the host.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "render/renderer.hpp"
 #include "render/vk/buffer.hpp"
 
 namespace render {
 
-constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32;  // see shaders/frame.h
+constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32, kTransferBytes = 64, kCornerBytes = 96;  // see shaders/frame.h
 
 // The buffers of one size of frame.
 struct FrameBuffers {
   struct Size {
     std::size_t pixels = 0;  // of all views
     bool wavefront = false, sums = false;
-    bool hits = false;  // what rays meet is found by a kernel of its own
+    bool hits = false;             // what rays meet is found by a kernel of its own
+    bool transfers = false;       // rays leave their ray-transfer matrices
+    std::size_t corner_rays = 0;  // of interpolated lens rays, of all views
+    std::size_t blur_tiles = 0;   // of one view; 0: nothing is blurred
 
     [[nodiscard]] bool holds(const Size& other) const {
-      return pixels == other.pixels && wavefront >= other.wavefront && sums >= other.sums && hits >= other.hits;
+      return pixels == other.pixels && wavefront >= other.wavefront && sums >= other.sums && hits >= other.hits &&
+             transfers >= other.transfers && corner_rays >= other.corner_rays && blur_tiles >= other.blur_tiles;
     }
   };
 
@@ -31,18 +37,32 @@ struct FrameBuffers {
         ray_origins(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
         ray_directions(device, s.hits ? s.pixels * 16 : 16, vk::Memory::device),
         hits(device, s.hits ? s.pixels * 4 : 4, vk::Memory::device),
+        transfers(device, s.transfers ? s.pixels * kTransferBytes : 16, vk::Memory::device),
+        corners(device, std::max<std::size_t>(s.corner_rays, 1) * kCornerBytes, vk::Memory::device),
         list(device, (s.pixels + 4) * 4, vk::Memory::device),
         doubtful(device, (s.pixels + 4) * 4, vk::Memory::device),
         blocks(device, s.pixels * 4, vk::Memory::device),
+        blur_tiles(device, s.blur_tiles * 16, vk::Memory::device),
+        blur_reaches(device, s.blur_tiles * 4, vk::Memory::device),
+        blur_levels(device, s.blur_tiles * 21 * 8, vk::Memory::device),  // 16 + 4 + 1 squares a tile
+        blur_nearest(device, s.blur_tiles * 16 * 16, vk::Memory::device),  // 16 squares of 2 pixels a tile
+        blur_squares(device, s.blur_tiles * 16 * 8, vk::Memory::device),
         radiance(device, s.pixels * 8, vk::Memory::device),
         display(device, s.pixels * 4, vk::Memory::device) {}
 
   Size size;
-  vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, list, doubtful, blocks, radiance,
-      display;
+  vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
+      blocks, blur_tiles, blur_reaches, blur_levels, blur_nearest, blur_squares, radiance, display;
+  std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
+  int samples = 0;  // in sums
 };
 
-// View `index` of a frame of config's size.
+// View `index` of a frame of config's size: one buffer of it, or all that the settings keep.
+[[nodiscard]] Image8 read_display(const vk::Buffer& display, const FrameConfig& config, std::size_t index);
+[[nodiscard]] std::vector<float> read_radiance(const vk::Buffer& radiance, const FrameConfig& config,
+                                               std::size_t index);
+[[nodiscard]] WavefrontPlanes read_wavefronts(const vk::Buffer& wavefronts, const FrameConfig& config,
+                                              std::size_t index);
 [[nodiscard]] RenderedView read_view(const FrameBuffers& frame, const FrameConfig& config, std::size_t index);
 
 }  // namespace render

@@ -6,7 +6,9 @@
 #include <span>
 #include <thread>
 
+#include "render/frame_blur.hpp"
 #include "render/gpu_tracer.hpp"
+#include "render/lens_forms/double_view.hpp"
 #include "render/map_range.hpp"
 #include "render/sample_point.hpp"
 
@@ -43,6 +45,22 @@ bool encodes_later(const FrameConfig& config) {
   return config.mode == Mode::dof || (is_map(config.mode) && !config.range);
 }
 
+bool keeps_transfer(const LensAccuracy& lens) {
+  return lens.form != LensForm::exact || lens.in_double || lens.spacing > 1;
+}
+
+FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views, Traversal traversal) {
+  const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
+  const bool transfers = keeps_transfer(config.accuracy.lens);
+  return {.pixels = pixels * views.size(),
+          .wavefront = keeps_wavefront(config, views),
+          .sums = config.mode == Mode::dof,
+          .hits = traversal != Traversal::per_ray || config.mode == Mode::dof || transfers,
+          .transfers = transfers,
+          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size(),
+          .blur_tiles = config.mode == Mode::adof ? blur_tiles(config.width, config.height) : 0};
+}
+
 bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views) {
   const bool own_focus = std::ranges::any_of(views, [](const ViewSetup& view) { return !view.accommodation; });
   return is_map(config.mode) || (config.mode == Mode::dof && own_focus) || config.keep_wavefront;
@@ -57,18 +75,42 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
       config_(config),
       traversal_(traversal),
       table_(filled_buffer(device, lenses::to_float(lenses.table))),
-      views_(filled_buffer(device, view_data(lenses, views))) {
+      views_(filled_buffer(device, view_data(lenses, views))),
+      corners_(corner_grid(config.accuracy.lens, config.width, config.height)) {
+  config.accuracy.lens.validate();
   std::vector<lenses::f64::LensData> worn;
   for (const ViewSetup& view : views) {
     worn.push_back(lenses.lens[view.lens]);
   }
   variant_.surface_kinds = surface_kinds(worn);
   variant_.view_traits = view_traits(views, lenses);
+  half_pupil_px_ = half_pupils_px(views, config.width);
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config, views);
   variant_.bare = config.bare;
   variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
+  variant_.keep_transfer = variant_.surface_kinds != 0 && keeps_transfer(config.accuracy.lens);
+  if (variant_.surface_kinds == 0) {
+    corners_ = {};  // nothing to interpolate
+  }
+  if (config.accuracy.lens.in_double && variant_.surface_kinds != 0) {
+    if (!device.limits().has_float64) {
+      throw vk::DeviceError(device.name() +
+                            " has no double precision (shaderFloat64): lens-double cannot be traced there");
+    }
+    double_table_ = filled_buffer(device, lenses.table);
+    double_views_ = filled_buffer(device, double_views(views, lenses));
+  }
+  if (corners_.rays() > 0) {
+    std::vector<std::byte> key;
+    if (config.accuracy.lens.form == LensForm::field) {
+      key = corner_key(config.accuracy.lens, corners_, view_data(lenses, views), lenses::to_float(lenses.table));
+    }
+    trace_corners_ = key.empty() || key != out_.corners_of;
+    out_.corners_of = std::move(key);
+    data_.corners = glm::vec4(corners_.spacing, corners_.count);
+  }
   variant_.hits_known = traversal != Traversal::per_ray;
   if (config.bare) {
     variant_.scene_features &= kBareFeatures;
@@ -94,7 +136,14 @@ void FrameJob::record_views(vk::Commands& commands, const vk::Buffer& from) {
   commands.barrier();
 }
 
-void FrameJob::record_picture(vk::Commands& commands) {
+void FrameJob::record_double_views(vk::Commands& commands, const vk::Buffer& from) {
+  if (double_views_) {
+    commands.copy(from, *double_views_, double_views_->bytes());
+    commands.barrier();
+  }
+}
+
+void FrameJob::record_picture(vk::Commands& commands, bool shown) {
   if (config_.mode != Mode::dof || variant_.keep_wavefront) {
     record_trace(commands);
   }
@@ -103,8 +152,8 @@ void FrameJob::record_picture(vk::Commands& commands) {
       record_edges(commands);
     }
     record_blur(commands);
-    if (!config_.keep_radiance) {
-      return;  // the blur has encoded too
+    if (!config_.keep_radiance || !shown) {
+      return;  // the blur has encoded too, or nobody asks for it
     }
   }
   if (!encodes_later(config_)) {
@@ -114,24 +163,36 @@ void FrameJob::record_picture(vk::Commands& commands) {
 
 void FrameJob::record_trace(vk::Commands& commands) {
   variant_.sampled = false;
-  if (traversal_ == Traversal::per_ray) {
+  if (traversal_ == Traversal::per_ray && !variant_.keep_transfer) {
     trace_with(commands, Stage::chief, {&out_.pixels, &out_.keys, &out_.wavefronts});
   } else {
     aim(commands);
-    find_hits(commands);
+    if (variant_.hits_known) {
+      find_hits(commands);
+    }
     trace_with(commands, Stage::found,
-               {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions});
+               {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions,
+                &out_.transfers});
   }
   commands.timestamp("trace");
 }
 
 // A view's list is worked off before the next view's is made: they share the memory.
 void FrameJob::aim(vk::Commands& commands) {
-  const Buffers buffers = with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.wavefronts});
+  const Buffers buffers =
+      with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.wavefronts, &out_.transfers});
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     empty_list(commands, out_.list);
     commands.barrier();
-    dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
+    if (corners_.rays() > 0 && !variant_.sampled) {
+      aim_between_corners(commands);
+    } else if (double_views_) {
+      dispatch_view(commands, kernels_.get(Stage::rays_double, variant_),
+                    {&*double_table_, &*double_views_, &out_.ray_origins, &out_.ray_directions, &out_.transfers,
+                     &out_.wavefronts});
+    } else {
+      dispatch_view(commands, kernels_.get(Stage::rays, variant_), buffers);
+    }
     commands.barrier();
     if (variant_.surface_kinds != 0) {
       dispatch_list(commands, kernels_.get(Stage::unsettled, variant_), buffers, out_.list);
@@ -139,6 +200,17 @@ void FrameJob::aim(vk::Commands& commands) {
     }
   }
   commands.timestamp("rays");
+}
+
+void FrameJob::aim_between_corners(vk::Commands& commands) {
+  if (trace_corners_) {
+    const auto groups = [](int corners) { return (static_cast<std::uint32_t>(corners) + kGroup - 1) / kGroup; };
+    commands.dispatch(kernels_.get(Stage::corners, variant_), with_scene({&out_.corners}), vk::bytes_of(data_),
+                      groups(corners_.count.x), groups(corners_.count.y));
+    commands.barrier();
+  }
+  dispatch_view(commands, kernels_.get(Stage::between, variant_),
+                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.corners, &out_.transfers}));
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {
@@ -183,13 +255,6 @@ void FrameJob::record_edges(vk::Commands& commands) {
     data_.view.y = 0;
   }
   commands.timestamp("edges");
-}
-
-void FrameJob::record_blur(vk::Commands& commands) {
-  commands.barrier();
-  dispatch(commands, kernels_.get(config_.keep_radiance ? Stage::blur : Stage::blur_encode),
-           {&out_.pixels, config_.keep_radiance ? &out_.radiance : &out_.display});
-  commands.timestamp("blur");
 }
 
 void FrameJob::record_encode(vk::Commands& commands) {

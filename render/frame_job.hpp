@@ -1,12 +1,14 @@
 // One frame in the making: its settings on the device, and the recording of each stage.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lenses/lens_model.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/corner_grid.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/commands.hpp"
 
@@ -23,8 +25,10 @@ class FrameJob {
 
   // From now on the views are those in `from` (view_data) whenever the commands run: other poses, the same lenses.
   void record_views(vk::Commands& commands, const vk::Buffer& from);
-  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end.
-  void record_picture(vk::Commands& commands);
+  void record_double_views(vk::Commands& commands, const vk::Buffer& from);  // double_views(); where they are used
+  // Every stage of a picture up to where the host must look at it (encodes_later), else to the end; not shown: linear
+  // radiance is all that is wanted of it.
+  void record_picture(vk::Commands& commands, bool shown = true);
 
   void record_trace(vk::Commands& commands);
   void record_edges(vk::Commands& commands);
@@ -36,7 +40,9 @@ class FrameJob {
   using Buffers = std::vector<const vk::Buffer*>;
 
   void aim(vk::Commands& commands);
+  void aim_between_corners(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
+  void find_layers(vk::Commands& commands, const BlurVariant& variant);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);
@@ -52,8 +58,12 @@ class FrameJob {
   Traversal traversal_;
   const vk::Buffer* accelerated_ = nullptr;  // where rays are traced by ray queries
   vk::Buffer table_, views_;
+  std::optional<vk::Buffer> double_table_, double_views_;  // where the lens is traced in double precision
+  CornerGrid corners_;
+  bool trace_corners_ = false;  // of each frame anew; a field's may be known
   TraceVariant variant_;
   gpu::FrameData data_{};
+  std::vector<float> half_pupil_px_;  // of each view: what the pupil's half spans at a dioptre, px
 };
 
 // Views as the kernels take them, kMostViews of them.
@@ -63,8 +73,16 @@ class FrameJob {
 // Whether samples or a map's range come between the picture's trace and its encoding.
 [[nodiscard]] bool encodes_later(const FrameConfig& config);
 
-// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go before
-// them where each pixel has a focus of its own.
+// Whether a frame of these settings has every pixel's wavefront in memory. Distributed rays need chief rays to go
+// before them where each pixel has a focus of its own.
 [[nodiscard]] bool keeps_wavefront(const FrameConfig& config, const std::vector<ViewSetup>& views);
+
+// Whether the rays through a lens of this accuracy come with their ray-transfer matrices, so that no later kernel has
+// to know the lens's form.
+[[nodiscard]] bool keeps_transfer(const LensAccuracy& lens);
+
+// What a frame of these views needs. traversal: not automatic.
+[[nodiscard]] FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views,
+                                             Traversal traversal);
 
 }  // namespace render

@@ -12,6 +12,7 @@ using glm::uvec4;
 using glm::vec4;
 using lenses::f32::EyeData;
 using lenses::f32::LensData;
+#include "render/shaders/composite.h"
 #include "render/shaders/frame.h"
 #include "render/shaders/view.h"
 }  // namespace render::gpu

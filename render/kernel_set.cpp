@@ -7,10 +7,15 @@
 #include "render/frame_types.hpp"
 #include "shaders/beam_blocks.hpp"
 #include "shaders/beams.hpp"
+#include "shaders/between.hpp"
 #include "shaders/blur.hpp"
-#include "shaders/blur_encode.hpp"
+#include "shaders/blur_layers.hpp"
+#include "shaders/blur_reach.hpp"
+#include "shaders/blur_squares.hpp"
+#include "shaders/blur_tiles.hpp"
 #include "shaders/chief.hpp"
 #include "shaders/colour.hpp"
+#include "shaders/corners.hpp"
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
 #include "shaders/find_edges.hpp"
@@ -18,6 +23,7 @@
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
+#include "shaders/rays_double.hpp"
 #include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
 #include "shaders/unsettled.hpp"
@@ -39,7 +45,7 @@ std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding>
 }
 
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
-enum class Constants { none, lanes_and_features, scene, chief, aim, samples };
+enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 struct Recipe {
   const char* name;
@@ -52,9 +58,18 @@ Recipe recipe_of(Stage stage) {
   using enum Binding;
   switch (stage) {
     case Stage::rays:
-      return {"rays", shaders::rays, scene_and(3, {texel_rgba32f}), Constants::aim};
+      return {"rays", shaders::rays, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
+    case Stage::rays_double:
+      return {"rays_double",
+              shaders::rays_double,
+              {texel_rgba32ui, uniform_buffer, storage_buffer, storage_buffer, storage_buffer, texel_rgba32f},
+              Constants::aim};
+    case Stage::corners:
+      return {"corners", shaders::corners, scene_and(1), Constants::scene};
+    case Stage::between:
+      return {"between", shaders::between, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::scene};
     case Stage::unsettled:
-      return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f}), Constants::aim};
+      return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
     case Stage::tile:
       return {"tile",
               shaders::tile,
@@ -70,7 +85,8 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f}), Constants::chief};
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}),
+              Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
     case Stage::find_edges:
@@ -86,9 +102,30 @@ Recipe recipe_of(Stage stage) {
       return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
               Constants::samples};
     case Stage::blur:
-      return {"blur", shaders::blur, {texel_rgba32ui, storage_buffer}, Constants::none};
-    case Stage::blur_encode:
-      return {"blur_encode", shaders::blur_encode, {texel_rgba32ui, storage_buffer}, Constants::none};
+      return {"blur",
+              shaders::blur,
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui, texel_rg32ui},
+              Constants::blur};
+    case Stage::blur_squares:
+      return {"blur_squares",
+              shaders::blur_squares,
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui},
+              Constants::blur};
+    case Stage::blur_tiles:
+      return {"blur_tiles",
+              shaders::blur_tiles,
+              {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer},
+              Constants::blur};
+    case Stage::blur_reach:
+      return {"blur_reach",
+              shaders::blur_reach,
+              {texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
+              Constants::blur};
+    case Stage::blur_layers:
+      return {"blur_layers",
+              shaders::blur_layers,
+              {texel_rgba32ui, storage_buffer, texel_r32ui, storage_buffer, texel_rgba32ui},
+              Constants::blur};
     case Stage::encode:
       return {"encode", shaders::encode, {texel_rg32ui, storage_buffer}, Constants::none};
     case Stage::colour:
@@ -106,9 +143,7 @@ bool can_trace_tiles(const vk::DeviceLimits& limits) {
 
 const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   const Recipe recipe = recipe_of(stage);
-  // By constant id, then the stage.
-  std::array<std::uint32_t, 10> key{};
-  key.back() = static_cast<std::uint32_t>(stage);
+  Key key{};
   std::size_t count = 0;
   if (recipe.constants == Constants::lanes_and_features) {
     key[0] = device_.limits().subgroup_size;
@@ -119,9 +154,12 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[1] = variant.scene_features;
     key[4] = variant.bare ? 1U : 0U;
     key[5] = variant.newton_steps;
-    key[6] = variant.keep_transfer ? 1U : 0U;
-    key[7] = variant.view_traits;
-    count = 8;
+    const bool passes_rays_on = stage == Stage::rays || stage == Stage::between || stage == Stage::unsettled;
+    const bool keeps = variant.keep_transfer && !variant.sampled;
+    key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
+    key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
+    key[9] = variant.view_traits;
+    count = 10;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
@@ -129,18 +167,30 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   }
   if (recipe.constants == Constants::aim || recipe.constants == Constants::samples) {
     key[8] = (recipe.constants == Constants::aim ? variant.sampled : variant.hits_known) ? 1U : 0U;
-    count = 9;
   }
   if (recipe.constants == Constants::samples) {
-    key[0] = 0;  // the lens is behind them
+    key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
+  return get(stage, key, count);
+}
+
+const vk::Kernel& KernelSet::get(Stage stage, const BlurVariant& variant) {
+  return get(
+      stage,
+      {variant.taps, variant.gaussian ? 1U : 0U, variant.encode ? 1U : 0U, static_cast<std::uint32_t>(variant.rate)},
+      4);
+}
+
+const vk::Kernel& KernelSet::get(Stage stage, Key key, std::size_t constants) {
+  key.back() = static_cast<std::uint32_t>(stage);
   const auto found = kernels_.find(key);
   if (found != kernels_.end()) {
     return found->second;
   }
-  const auto constants = std::span<const std::uint32_t>(key).first(count);
+  const Recipe recipe = recipe_of(stage);
   return kernels_
-      .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData), constants, recipe.name))
+      .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData),
+                               std::span<const std::uint32_t>(key).first(constants), recipe.name))
       .first->second;
 }
 

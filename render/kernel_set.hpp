@@ -12,6 +12,9 @@ namespace render {
 
 enum class Stage : std::uint32_t {
   rays,
+  rays_double,
+  corners,
+  between,
   unsettled,
   tile,
   ray_query,
@@ -23,8 +26,11 @@ enum class Stage : std::uint32_t {
   beams,
   edges,
   samples,
+  blur_tiles,
+  blur_reach,
+  blur_squares,
   blur,
-  blur_encode,
+  blur_layers,
   encode,
   colour
 };
@@ -40,7 +46,15 @@ struct TraceVariant {
   std::uint32_t newton_steps = 0;  // LensAccuracy::iterations
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
   bool sampled = false;            // rays are samples of distributed rays
-  bool hits_known = false;         // what samples meet is found by a kernel of its own
+  bool hits_known = false;         // what rays meet is found by a kernel of its own
+};
+
+// How the kernels of approximate defocus are specialised (shaders/gather.glsl).
+struct BlurVariant {
+  std::uint32_t taps = 0;  // about the most of a gathered blur; 0: nothing is blurred
+  bool gaussian = false;
+  int rate = 1;         // BlurAccuracy::rate
+  bool encode = false;  // straight to the display's bytes
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
@@ -51,11 +65,16 @@ class KernelSet {
   explicit KernelSet(vk::Device& device) : device_(device) {}
 
   [[nodiscard]] const vk::Kernel& get(Stage stage, const TraceVariant& variant = {});
+  [[nodiscard]] const vk::Kernel& get(Stage stage, const BlurVariant& variant);
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
+  using Key = std::array<std::uint32_t, 11>;  // the constants by id, at the end the stage
+
+  const vk::Kernel& get(Stage stage, Key key, std::size_t constants);
+
   vk::Device& device_;
-  std::map<std::array<std::uint32_t, 10>, vk::Kernel> kernels_;
+  std::map<Key, vk::Kernel> kernels_;
 };
 
 }  // namespace render

@@ -1,11 +1,16 @@
 #include "render/live_frame.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 
+#include "render/composite.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_job.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/double_view.hpp"
+#include "render/lens_forms/lens_form_cache.hpp"
 #include "shaders/swap_red_blue.hpp"
 
 namespace render {
@@ -38,6 +43,16 @@ std::vector<ViewSetup> guarded(std::vector<ViewSetup> views, const LiveConfig& c
   return views;
 }
 
+void put_row(Image8& picture, int x, int y, const std::vector<std::uint32_t>& words, bool blue_first) {
+  std::size_t to =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
+  for (const std::uint32_t word : words) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      picture.rgb[to++] = static_cast<std::uint8_t>((word >> (8 * (blue_first ? 2 - c : c))) & 255U);
+    }
+  }
+}
+
 }  // namespace
 
 tracking::FieldOfView with_guard(const tracking::FieldOfView& fov, int width, int height, int guard_px) {
@@ -46,53 +61,136 @@ tracking::FieldOfView with_guard(const tracking::FieldOfView& fov, int width, in
   return {fov.tan_left + across, fov.tan_right + across, fov.tan_down + up, fov.tan_up + up};
 }
 
+namespace {
+
+// A picture of all views in the making: the frame itself, or a layer of it.
+struct LivePicture {
+  LivePicture(const RendererParts& parts, const FrameConfig& frame, const std::vector<ViewSetup>& views)
+      : config(frame),
+        buffers(parts.device, buffers_for(frame, views, parts.traversal)),
+        upload(parts.device, sizeof(gpu::ViewData) * static_cast<std::size_t>(gpu::kMostViews), vk::Memory::upload),
+        double_upload(parts.device, sizeof(glm::dvec4) * double_views({}, {}).size(), vk::Memory::upload) {}
+
+  // The lenses in the form that the pictures use.
+  void write_views(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
+    upload.write(view_data(lenses, views));
+    if (config.accuracy.lens.in_double) {
+      double_upload.write(double_views(views, lenses));
+    }
+  }
+
+  void record(vk::Commands& commands, const RendererParts& parts, const lenses::LensModel& lenses,
+              const std::vector<ViewSetup>& views, bool shown) {
+    FrameJob job(parts.device, parts.scene, parts.kernels, buffers, lenses, views, config, parts.traversal);
+    job.set_range(config.range.value_or(MapRange{}));
+    job.record_views(commands, upload);
+    job.record_double_views(commands, double_upload);
+    job.record_picture(commands, shown);
+    if (config.mode == Mode::dof) {
+      for (int i = 0; i < config.samples; ++i) {
+        job.record_sample(commands, i);
+      }
+      commands.timestamp("samples");
+      if (shown) {
+        job.record_encode(commands);
+      }
+    }
+  }
+
+  FrameConfig config;
+  FrameBuffers buffers;
+  vk::Buffer upload, double_upload;
+};
+
+// The stages of layers under one name each.
+std::vector<vk::StageTime> summed(const std::vector<vk::StageTime>& stages) {
+  std::vector<vk::StageTime> sums;
+  for (const vk::StageTime& stage : stages) {
+    const auto found = std::ranges::find(sums, stage.name, &vk::StageTime::name);
+    if (found == sums.end()) {
+      sums.push_back(stage);
+    } else {
+      found->milliseconds += stage.milliseconds;
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
 struct LiveFrame::State {
   State(const RendererParts& parts, const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
-        const LiveConfig& wanted, std::size_t view_count)
+        const LiveConfig& wanted)
       : device(parts.device),
         config(wanted),
         frame(traced(wanted)),
-        buffers(parts.device, {.pixels = pixels_of(frame) * view_count,
-                               .wavefront = keeps_wavefront(frame, views),
-                               .sums = frame.mode == Mode::dof,
-                               .hits = parts.traversal != Traversal::per_ray}),
-        upload(parts.device, sizeof(gpu::ViewData) * static_cast<std::size_t>(gpu::kMostViews), vk::Memory::upload),
+        compositor(parts.device),
         divider(parts.device, sizeof(std::uint32_t) * static_cast<std::size_t>(kDividerPixels * wanted.frame.height),
                 vk::Memory::device),
         picture(parts.device),
         submission(parts.device) {
     divider.write(std::vector<std::uint32_t>(static_cast<std::size_t>(kDividerPixels * wanted.frame.height), ~0U));
+    make_pictures(parts, guarded(views, config));
     write_views(lenses, views);
-    record_picture(parts, lenses, views);
+    record_picture(parts, lenses, guarded(views, config));
+  }
+
+  void make_pictures(const RendererParts& parts, const std::vector<ViewSetup>& views) {
+    if (!is_composed(frame)) {
+      whole = std::make_unique<LivePicture>(parts, frame, views);
+      return;
+    }
+    plan = plan_moving_composite(frame, views);
+    whole = std::make_unique<LivePicture>(parts, plan->whole.config, plan->whole.views);
+    if (plan->fovea) {
+      fovea = std::make_unique<LivePicture>(parts, plan->fovea->config, plan->fovea->views);
+    }
+    const std::size_t data_bytes = sizeof(gpu::CompositeData) * static_cast<std::size_t>(gpu::kMostViews);
+    composite_upload = std::make_unique<vk::Buffer>(device, data_bytes, vk::Memory::upload);
+    composed = std::make_unique<vk::Buffer>(device, pixels_of(frame) * views.size() * 4, vk::Memory::device);
   }
 
   void write_views(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
-    upload.write(view_data(lenses, guarded(views, config)));
+    const lenses::LensModel& worn = forms.in_form(lenses, frame.accuracy.lens);
+    const std::vector<ViewSetup> now = guarded(views, config);
+    if (!plan) {
+      whole->write_views(worn, now);
+      return;
+    }
+    aim_composite(*plan, frame, now);
+    whole->write_views(worn, plan->whole.views);
+    if (fovea) {
+      fovea->write_views(worn, plan->fovea->views);
+    }
+    composite_upload->write(composite_data(*plan, frame, now));
   }
 
   void record_picture(const RendererParts& parts, const lenses::LensModel& lenses,
                       const std::vector<ViewSetup>& views) {
-    FrameJob job(device, parts.scene, parts.kernels, buffers, lenses, views, frame, parts.traversal);
-    job.set_range(frame.range.value_or(MapRange{}));
-    job.record_views(picture, upload);
-    job.record_picture(picture);
-    if (frame.mode == Mode::dof) {
-      for (int i = 0; i < frame.samples; ++i) {
-        job.record_sample(picture, i);
-      }
-      picture.timestamp("samples");
-      job.record_encode(picture);
+    const lenses::LensModel& worn = forms.in_form(lenses, frame.accuracy.lens);
+    whole->record(picture, parts, worn, plan ? plan->whole.views : views, !plan);
+    if (fovea) {
+      picture.barrier();
+      fovea->record(picture, parts, worn, plan->fovea->views, false);
+    }
+    if (plan) {
+      const DrawnLayers layers{whole->buffers, fovea ? &fovea->buffers : nullptr};
+      compositor.record(picture, frame, views.size(), *composite_upload, layers, whole->buffers.radiance, *composed);
     }
   }
+
+  // Every view's bytes for the display.
+  [[nodiscard]] const vk::Buffer& shown() const { return plan ? *composed : whole->buffers.display; }
+  [[nodiscard]] std::size_t shown_pixels() const { return pixels_of(frame) * config.pairs * config.eyes; }
 
   // Once the display's bytes are there: red and blue change places.
   void record_swap() {
     swap.emplace(device, shaders::swap_red_blue, std::vector{vk::Binding::storage_buffer}, sizeof(std::uint32_t),
                  std::span<const std::uint32_t>{}, "swap_red_blue");
-    const auto pixels = static_cast<std::uint32_t>(buffers.size.pixels);
+    const auto pixels = static_cast<std::uint32_t>(shown_pixels());
     const std::uint32_t groups = (pixels + kSwapGroup - 1) / kSwapGroup;
     picture.barrier();
-    picture.dispatch(*swap, {&buffers.display}, vk::bytes_of(pixels), std::min(groups, kGroupsAcross),
+    picture.dispatch(*swap, {&shown()}, vk::bytes_of(pixels), std::min(groups, kGroupsAcross),
                      (groups + kGroupsAcross - 1) / kGroupsAcross);
   }
 
@@ -101,7 +199,7 @@ struct LiveFrame::State {
     const std::size_t first = view * pixels_of(frame) +
                               static_cast<std::size_t>(config.guard_px) * static_cast<std::size_t>(frame.width) +
                               static_cast<std::size_t>(config.guard_px + from);
-    return {.from = &buffers.display,
+    return {.from = &shown(),
             .offset = 4 * first,
             .row_pixels = frame.width,
             .x = from,
@@ -125,13 +223,13 @@ struct LiveFrame::State {
   }
 
   [[nodiscard]] vk::ExternalImage image(std::size_t eye, std::uint32_t index) const {
-    return {targets[eye].images.at(index), config.frame.width, config.frame.height};
+    return {images[eye].at(index), config.frame.width, config.frame.height};
   }
 
   void record_copies() {
-    for (std::size_t eye = 0; eye < targets.size(); ++eye) {
+    for (std::size_t eye = 0; eye < images.size(); ++eye) {
       std::vector<vk::Commands>& list = copies.emplace_back();
-      for (std::uint32_t i = 0; i < targets[eye].images.size(); ++i) {
+      for (std::uint32_t i = 0; i < images[eye].size(); ++i) {
         vk::copy_to_image(list.emplace_back(device), blocks_of(eye), image(eye, i));
         list.back().timestamp("copy");
       }
@@ -141,25 +239,29 @@ struct LiveFrame::State {
   vk::Device& device;
   LiveConfig config;
   FrameConfig frame;
-  FrameBuffers buffers;
-  vk::Buffer upload, divider;
+  LensFormCache forms;
+  std::optional<CompositePlan> plan;  // of a frame with fewer traced pixels than shown ones
+  Compositor compositor;
+  std::unique_ptr<LivePicture> whole, fovea;
+  std::unique_ptr<vk::Buffer> composite_upload, composed;
+  vk::Buffer divider;
   std::optional<vk::Kernel> swap;
   vk::Commands picture;
-  std::vector<LiveTarget> targets;
+  std::vector<std::vector<VkImage>> images;
   std::vector<std::vector<vk::Commands>> copies;  // by eye and image
   vk::Submission submission;                      // last: it waits for all of the above
 };
 
 LiveFrame::LiveFrame(Renderer& renderer, const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
-                     const LiveConfig& config, const std::vector<LiveTarget>& targets) {
-  if (views.size() != config.pairs * config.eyes || targets.size() != config.eyes ||
+                     const LiveConfig& config, const std::vector<std::vector<VkImage>>& images) {
+  if (views.size() != config.pairs * config.eyes || images.size() != config.eyes ||
       views.size() > static_cast<std::size_t>(gpu::kMostViews)) {
     throw std::invalid_argument("a running picture needs a view for each eye of each pair, and images for each eye");
   }
   const FrameConfig frame = traced(config);
-  state_ = std::make_unique<State>(renderer.parts(lenses, views, frame), lenses, views, config, views.size());
-  state_->targets = targets;
-  if (std::ranges::any_of(targets, &LiveTarget::blue_first)) {
+  state_ = std::make_unique<State>(renderer.parts(lenses, views, frame), lenses, views, config);
+  state_->images = images;
+  if (config.blue_first) {
     state_->record_swap();
   }
   state_->record_copies();
@@ -183,25 +285,37 @@ void LiveFrame::start(const lenses::LensModel& lenses, const std::vector<ViewSet
 }
 
 std::vector<vk::StageTime> LiveFrame::wait() {
-  return state_->submission.wait();
+  return summed(state_->submission.wait());
+}
+
+Image8 LiveFrame::read_picture(std::size_t eye) {
+  State& s = *state_;
+  (void)s.submission.wait();
+  Image8 picture = black_image(s.config.frame.width, s.config.frame.height);
+  for (const vk::PixelBlock& block : s.blocks_of(eye)) {
+    for (int y = 0; y < block.height; ++y) {
+      const std::size_t from =
+          block.offset + 4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(block.row_pixels);
+      put_row(picture, block.x, y, block.from->read<std::uint32_t>(static_cast<std::size_t>(block.width), from),
+              s.config.blue_first);
+    }
+  }
+  return picture;
 }
 
 Image8 LiveFrame::read_image(std::size_t eye, std::uint32_t image) {
   State& s = *state_;
   (void)s.submission.wait();
   const vk::ExternalImage from = s.image(eye, image);
-  const std::size_t count = static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height);
-  vk::Buffer pixels(s.device, 4 * count, vk::Memory::readback);
+  const auto width = static_cast<std::size_t>(from.width);
+  vk::Buffer pixels(s.device, 4 * width * static_cast<std::size_t>(from.height), vk::Memory::readback);
   vk::Commands commands(s.device);
   vk::copy_from_image(commands, from, pixels);
   (void)s.device.run(commands);
-  const auto words = pixels.read<std::uint32_t>(count);
-  Image8 picture{from.width, from.height, std::vector<std::uint8_t>(3 * count)};
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t byte = s.targets[eye].blue_first ? 2 - c : c;
-      picture.rgb[3 * i + c] = static_cast<std::uint8_t>((words[i] >> (8 * byte)) & 255U);
-    }
+  Image8 picture = black_image(from.width, from.height);
+  for (int y = 0; y < from.height; ++y) {
+    put_row(picture, 0, y, pixels.read<std::uint32_t>(width, 4 * width * static_cast<std::size_t>(y)),
+            s.config.blue_first);
   }
   return picture;
 }

@@ -19,22 +19,18 @@ struct LiveConfig {
   // Pixels drawn beyond each side of the image and not shown, so that blur at its border gathers what lies outside.
   int guard_px = 0;
   std::size_t eyes = 2;
-  std::size_t pairs = 1;  // 2: pair A left, pair B right of a divider in each eye's image
-};
-
-// The images that an eye is drawn into, all of one size, that of the frame.
-struct LiveTarget {
-  std::vector<VkImage> images;
-  bool blue_first = false;  // the byte order of their format
+  bool blue_first = false;  // the byte order of the images
+  std::size_t pairs = 1;    // 2: pair A left, pair B right of a divider in each eye's image
 };
 
 class LiveFrame {
  public:
-  // views: pair by pair, in each eye by eye; lenses and their order stay, everything else of a view may change from
-  // frame to frame. Draws one frame that nobody sees, so that drivers compile now. Throws vk::DeviceError, also for a
-  // size that the device's buffers cannot hold; std::invalid_argument for a map without a range.
+  // images: those that each eye is drawn into, of the frame's size. views: pair by pair, in each eye by eye; lenses and
+  // their order stay, everything else of a view may change from frame to frame. Draws one frame that nobody sees, so
+  // that drivers compile now. Throws vk::DeviceError, also for a size that the device's buffers cannot hold;
+  // std::invalid_argument for a map without a range.
   LiveFrame(Renderer& renderer, const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
-            const LiveConfig& config, const std::vector<LiveTarget>& targets);
+            const LiveConfig& config, const std::vector<std::vector<VkImage>>& images);
   ~LiveFrame();
   LiveFrame(const LiveFrame&) = delete;
   LiveFrame& operator=(const LiveFrame&) = delete;
@@ -46,6 +42,8 @@ class LiveFrame {
   // Until the frame is done; the device's times of its stages.
   std::vector<vk::StageTime> wait();
 
+  // What an eye was shown last.
+  [[nodiscard]] Image8 read_picture(std::size_t eye);
   // Reads an image back as it was left, between start() and the next. It must allow copies from it.
   [[nodiscard]] Image8 read_image(std::size_t eye, std::uint32_t image);
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
+#include "render/composite.hpp"
 #include "render/frame_buffers.hpp"
 #include "render/frame_job.hpp"
 #include "render/frame_types.hpp"
 #include "render/kernel_set.hpp"
+#include "render/lens_forms/lens_form_cache.hpp"
 #include "render/map_range.hpp"
 #include "render/sample_error.hpp"
 #include "render/shaders/sample_pattern.h"
@@ -40,20 +44,58 @@ struct Renderer::State {
   State(vk::Device& d, const Scene& scene, const RendererConfig& config)
       : device(d), choice(d, config), buffers(d, scene), kernels(d) {}
 
-  // All views in one submission, but for samples and for a map whose range the picture itself must tell.
   RenderedFrame render_together(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                 const FrameConfig& config, const Progress& progress) {
+    return is_composed(config) ? compose(lenses, views, config, progress) : draw(lenses, views, config, progress);
+  }
+
+  // Each layer into buffers of its own.
+  RenderedFrame compose(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views, const FrameConfig& config,
+                        const Progress& progress) {
+    const CompositePlan plan = plan_composite(config, views);
+    const auto drawn = [&](const CompositeLayer& layer, std::unique_ptr<FrameBuffers>& layer_frame) {
+      std::swap(frame, layer_frame);
+      RenderedFrame result = draw(lenses, layer.views, layer.config, progress, false);
+      std::swap(frame, layer_frame);
+      return result;
+    };
+    RenderedFrame result = drawn(plan.whole, whole_frame);
+    if (plan.fovea) {
+      add_times(result.stages, drawn(*plan.fovea, fovea_frame).stages);
+    }
+    const DrawnLayers layers{*whole_frame, plan.fovea ? fovea_frame.get() : nullptr};
+    const std::size_t pixels = pixels_of(config) * views.size();
+    const vk::Buffer data = filled_buffer(device, composite_data(plan, config, views));
+    const vk::Buffer radiance(device, config.keep_radiance ? pixels * 8 : 8, vk::Memory::device);
+    const vk::Buffer display(device, pixels * 4, vk::Memory::device);
+    vk::Commands commands(device);
+    compositor.record(commands, config, views.size(), data, layers, radiance, display);
+    add_times(result.stages, device.run(commands));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      RenderedView& view = result.views.emplace_back();
+      view.display = read_display(display, config, i);
+      if (config.keep_radiance) {
+        view.radiance = read_radiance(radiance, config, i);
+      }
+      if (config.keep_wavefront) {
+        view.wavefront = composed_wavefront(plan, config, views, layers, i);
+      }
+    }
+    return result;
+  }
+
+  // All views in one submission, but for samples and for a map whose range the picture itself must tell.
+  RenderedFrame draw(const lenses::LensModel& worn, const std::vector<ViewSetup>& views, const FrameConfig& config,
+                     const Progress& progress, bool read_back = true) {
+    const lenses::LensModel& lenses = forms.in_form(worn, config.accuracy.lens);
     const Traversal traversal = choice.for_frame(device, buffers, kernels, lenses, views, config);
-    FrameBuffers& out = frame_buffers({.pixels = pixels_of(config) * views.size(),
-                                       .wavefront = keeps_wavefront(config, views),
-                                       .sums = config.mode == Mode::dof,
-                                       .hits = traversal != Traversal::per_ray || config.mode == Mode::dof});
+    FrameBuffers& out = frame_buffers(buffers_for(config, views, traversal));
     FrameJob job(device, buffers, kernels, out, lenses, views, config, traversal);
     RenderedFrame result;
     result.range = config.range.value_or(MapRange{});
     job.set_range(result.range);
     vk::Commands commands(device);
-    job.record_picture(commands);
+    job.record_picture(commands, read_back);
     add_times(result.stages, device.run(commands));
     if (config.mode == Mode::dof) {
       take_samples(job, out, config, result, progress);
@@ -66,16 +108,19 @@ struct Renderer::State {
       job.record_encode(last);
       add_times(result.stages, device.run(last));
     }
-    for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t i = 0; read_back && i < views.size(); ++i) {
       result.views.push_back(read_view(out, config, i));
     }
     return result;
   }
 
   // Distributed rays until the samples or the target error are reached; results go into `frame`.
-  void take_samples(FrameJob& job, const FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
+  void take_samples(FrameJob& job, FrameBuffers& out, const FrameConfig& config, RenderedFrame& frame,
                     const Progress& progress) {
-    frame.samples = 0;
+    if (config.samples_before != 0 && config.samples_before != out.samples) {
+      throw std::invalid_argument("the frame before took other samples");
+    }
+    frame.samples = config.samples_before;
     while (frame.samples < config.samples) {
       const int batch = std::min(kSamplesASubmission, config.samples - frame.samples);
       vk::Commands commands(device);
@@ -84,6 +129,7 @@ struct Renderer::State {
       }
       add_times(frame.stages, device.run(commands));
       frame.samples += batch;
+      out.samples = frame.samples;
       if (progress) {
         progress(frame.samples, config.samples);
       }
@@ -109,7 +155,9 @@ struct Renderer::State {
   TraversalChoice choice;  // before the scene: it refuses what the device cannot
   SceneBuffers buffers;
   KernelSet kernels;
-  std::unique_ptr<FrameBuffers> frame;
+  Compositor compositor{device};
+  LensFormCache forms;
+  std::unique_ptr<FrameBuffers> frame, whole_frame, fovea_frame;
 };
 
 Renderer::Renderer(vk::Device& device, const Scene& scene, const RendererConfig& config)
@@ -119,10 +167,16 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 
 RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                const FrameConfig& config, const Progress& progress) {
-  const std::size_t bytes_a_view = pixels_of(config) * (keeps_wavefront(config, views) ? kWavefrontBytes : kPixelBytes);
+  const std::size_t bytes_a_pixel = keeps_transfer(config.accuracy.lens) ? kTransferBytes
+                                    : keeps_wavefront(config, views)     ? kWavefrontBytes
+                                                                         : kPixelBytes;
+  const std::size_t bytes_a_view = pixels_of(config) * bytes_a_pixel;
   const bool fits = bytes_a_view * views.size() <= state_->device.limits().max_storage_buffer_bytes;
   if (fits && views.size() <= static_cast<std::size_t>(gpu::kMostViews)) {
     return state_->render_together(lenses, views, config, progress);
+  }
+  if (config.samples_before != 0) {
+    throw std::invalid_argument("views that do not fit together cannot go on with their samples");
   }
   // One after the other. A map's range spans them all, so it is found before any is coloured.
   RenderedFrame all;
@@ -158,7 +212,8 @@ void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSe
 RendererParts Renderer::parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                               const FrameConfig& config) {
   State& s = *state_;
-  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, lenses, views, config)};
+  const lenses::LensModel& worn = s.forms.in_form(lenses, config.accuracy.lens);
+  return {s.device, s.buffers, s.kernels, s.choice.for_frame(s.device, s.buffers, s.kernels, worn, views, config)};
 }
 
 std::size_t Renderer::kernels_made() const {

@@ -37,6 +37,7 @@ struct FrameConfig {
   double threshold_px = 0.5;           // blurs with a smaller major semi-axis are not drawn
   double exposure = 0.0;               // EV
   int samples = 64;                    // dof; with a target error the most that are taken
+  int samples_before = 0;              // dof: of these, how many the frame before took of the same views and settings
   std::optional<double> target_error;  // dof: standard error of the mean luminance, rms over the picture
   std::uint32_t seed = 0;
   int colour_map = 0;             // 0: the paper's hue, 1: perceptual
@@ -61,7 +62,7 @@ struct RenderedFrame {
   std::vector<RenderedView> views;
   std::vector<vk::StageTime> stages;
   MapRange range;               // of a map
-  int samples = 1;              // taken (dof)
+  int samples = 1;              // in the picture (dof)
   double error_estimate = 0.0;  // dof: see FrameConfig::target_error
 };
 
@@ -85,7 +86,8 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   // Views that do not fit the device's buffers together are rendered one after the other. Throws vk::DeviceError, also
-  // for a size that one view alone cannot have.
+  // for a size that one view alone cannot have. Distributed rays can go on where the frame before ended, so that a
+  // picture that stands still becomes better: std::invalid_argument if it has not taken samples_before.
   [[nodiscard]] RenderedFrame render(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                                      const FrameConfig& config, const Progress& progress = {});
 

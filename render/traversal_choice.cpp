@@ -23,10 +23,7 @@ class TimedTrace {
              const std::vector<ViewSetup>& views, const FrameConfig& frame, Traversal traversal)
       : device_(device),
         traversal_(traversal),
-        out_(device,
-             {.pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * views.size(),
-              .wavefront = keeps_wavefront(frame, views),
-              .hits = traversal != Traversal::per_ray}),
+        out_(device, buffers_for(frame, views, traversal)),
         job_(device, scene, kernels, out_, lenses, views, frame, traversal),
         commands_(device) {
     job_.record_trace(commands_);

@@ -1,7 +1,6 @@
 #include "xr/frame_loop.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <thread>
 
 #include "xr/convert.hpp"
@@ -97,8 +96,10 @@ std::optional<Frame> FrameLoop::next() {
   XrFrameState state{};
   state.type = XR_TYPE_FRAME_STATE;
   check(xrWaitFrame(session_.handle(), nullptr, &state), "xrWaitFrame");
+  const auto woken = std::chrono::steady_clock::now();
   check(xrBeginFrame(session_.handle(), nullptr), "xrBeginFrame");
   Frame frame = last_;
+  frame.woken = woken;
   frame.display_time = state.predictedDisplayTime;
   frame.period = state.predictedDisplayPeriod;
   frame.should_render = state.shouldRender != XR_FALSE;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -21,9 +22,10 @@ struct HeadsetView {
 };
 
 struct Frame {
-  XrTime display_time = 0;     // predicted, of the middle of the display's exposure
-  XrDuration period = 0;       // ns from one frame to the next
-  bool should_render = false;  // false: nobody would see it, or head or eyes are not known
+  XrTime display_time = 0;                      // predicted, of the middle of the display's exposure
+  XrDuration period = 0;                        // ns from one frame to the next
+  std::chrono::steady_clock::time_point woken;  // when xrWaitFrame returned
+  bool should_render = false;                   // false: nobody would see it, or head or eyes are not known
   // In the loop's space, which is that of the scene. Last known where should_render is false for want of tracking.
   tracking::Pose space_from_head;
   std::array<HeadsetView, 2> views;  // indexed by tracking::Side

@@ -56,7 +56,13 @@ GazeInput::GazeInput(const GazeActions& actions, const Session& session) : sessi
     XrEyeTrackerCreateInfoFB info{};
     info.type = XR_TYPE_EYE_TRACKER_CREATE_INFO_FB;
     const auto create = instance.function<PFN_xrCreateEyeTrackerFB>("xrCreateEyeTrackerFB");
-    check(create(session.handle(), &info, &tracker_), "xrCreateEyeTrackerFB");
+    const XrResult result = create(session.handle(), &info, &tracker_);
+    if (result == XR_ERROR_INSTANCE_LOST || result == XR_ERROR_SESSION_LOST) {
+      check(result, "xrCreateEyeTrackerFB");
+    }
+    if (XR_FAILED(result)) {
+      tracker_ = XR_NULL_HANDLE;  // the user may have denied it; one line for both, or the head, then
+    }
   }
   if (actions.support().combined) {
     XrActionSpaceCreateInfo info{};

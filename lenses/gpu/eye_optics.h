@@ -1,11 +1,6 @@
 // The eye: thin lens at the entrance pupil, retina one axial length behind it (paper, section 5.4). Powers are carried
 // as the excess E - I/l, so that a residual is a difference of small numbers.
 
-struct EyeData {
-  vec4 excess;  // relaxed E - I/l: hh, hv, vv (D); w: amplitude of accommodation (D)
-  vec4 pupil;   // pupil diameter (m), centre of rotation behind the pupil (m), accommodation if fixed (D), -
-};
-
 struct EyeResponse {
   real accommodation;  // D
   vec3 residual;       // R = V + E - I/l: hh, hv, vv (D)
@@ -43,20 +38,4 @@ VG_FUNCTION EyeResponse eye_response(vec3 v, EyeData eye, real accommodation) {
 
 VG_FUNCTION real clamped_accommodation(vec3 v, EyeData eye) {
   return clamp(accommodation_demand(v, eye), real(0), eye.excess.w);
-}
-
-// Listing's law: the smallest rotation from -z to a unit gaze direction. 1 - g_z is taken from the sine where it would
-// cancel; straight back it is the half turn about y.
-VG_FUNCTION mat3 listing_rotation(vec3 g) {
-  real s2 = g.x * g.x + g.y * g.y;
-  real k = g.z <= real(0) ? real(1) / (real(1) - g.z) : (s2 > real(0) ? (real(1) + g.z) / s2 : real(0));
-  real xx = g.z > real(0) && !(s2 > real(0)) ? real(2) : k * g.x * g.x;
-  return mat3(real(1) - xx, -k * g.x * g.y, g.x, -k * g.x * g.y, real(1) - k * g.y * g.y, g.y, -g.x, -g.y, -g.z);
-}
-
-// The pupil plane's basis for a ray of direction d (unit): e_h = normalize(d x y), e_v = e_h x d. A ray straight up or
-// down takes the direction's own limit from ahead.
-VG_FUNCTION vec3 pupil_basis_h(vec3 d) {
-  real flat2 = d.x * d.x + d.z * d.z;
-  return flat2 > kEpsilon * kEpsilon ? vec3(-d.z, real(0), d.x) / sqrt(flat2) : vec3(real(1), real(0), real(0));
 }

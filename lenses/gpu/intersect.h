@@ -8,15 +8,6 @@
 // A placed surface is met in the axes of its shape: o and d less decentration, slope and height. That is a linear map
 // (a shear), which keeps lines and t, but not the length of d.
 
-struct SurfaceHit {
-  bool found;
-  bool ledge;      // not found, as the ray ends in the wall between a segment and its base, before t
-  bool unsettled;  // not found, and not searched for any longer (HURRIED)
-  int steps;       // of Newton's method; -1 where another search or a closed form found it
-  real t;
-  SurfacePoint point;
-};
-
 const int kNewtonSteps = 12;
 const int kBracketSamples = 48;
 const int kBisectionSteps = 64;
@@ -80,6 +71,12 @@ const int kMostEvaluations = kNewtonSteps + kBracketSamples + 1 + kBisectionStep
 // In the axes of the surface's shape. Beside the closed forms, one loop with one evaluation of the surface in it: that
 // code is by far the largest here, and compilers copy it to each place that calls it.
 VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
+  if (IS_KIND(s, kFacets)) {
+    return facets_hit(TABLE s, o, d, semi_diameter);
+  }
+  if (IS_KIND(s, kBezier)) {
+    return bezier_hit(TABLE s, o, d, semi_diameter);
+  }
   SurfaceHit hit;
   hit.found = false;
   hit.ledge = false;

@@ -35,12 +35,17 @@
 
 #else
 
+#ifndef real  // a shader may have made all of these double
 #define real float
+const float kEpsilon = 1.1920929e-7;
+#endif
 #define VG_FUNCTION
 #define VG_INOUT(type) inout type
 #define TABLE_PARAM
 #define TABLE
+#ifndef TABLE_AT
 #define TABLE_AT(i) texelFetch(lens_table, i)
+#endif
 #ifndef BACK_KINDS
 #define BACK_KINDS 0xffffffffu
 #define FRONT_KINDS 0xffffffffu
@@ -61,7 +66,6 @@
 #define KIND_USED(k) ((kinds & (1u << uint(k))) != 0u)
 #define IS_KIND(s, k) (KIND_USED(k) && ((kinds & kShapeBits) == (1u << uint(k)) || (s).kind.x == (k)))
 #define LENS_USED (BACK_KINDS != 0u)
-const float kEpsilon = 1.1920929e-7;
 
 #endif
 

@@ -97,6 +97,34 @@ VG_FUNCTION RayTransfer sight_line_transfer(LensData lens, SightLine line) {
                        to_lens_direction(lens, frame * line.e_v));
 }
 
+// The first axis of the basis beyond the lens that the transfer is written in: primary axes, unit. The second is its
+// cross product with the ray's direction there.
+VG_FUNCTION vec3 transfer_axis(LensData lens, SightLine line) {
+  if (!LENS_USED || lens.glass.w == real(0)) {
+    return line.e_h;
+  }
+  mat3 frame = lens_frame(lens, line);
+  vec3 e = to_lens_direction(lens, transpose(frame) * line.e_h);
+  e = normalize(e - dot(e, line.path.direction_glass) * line.path.direction_glass);
+  e = normalize(e - dot(e, line.path.direction_object) * line.path.direction_object);
+  return frame * from_lens_direction(lens, e);
+}
+
+// An axis in its place that needs no more than the ray: what of e_h stands across it.
+VG_FUNCTION vec3 upright_axis(vec3 e_h, vec3 direction) { return normalize(e_h - dot(e_h, direction) * direction); }
+
+// The transfer with its outgoing basis turned from one such axis to another.
+VG_FUNCTION RayTransfer turned_transfer(RayTransfer m, vec3 from, vec3 to, vec3 direction) {
+  real c = dot(from, to);
+  real s = dot(cross(from, direction), to);
+  mat2 turn = mat2(c, -s, s, c);
+  m.a = turn * m.a;
+  m.b = turn * m.b;
+  m.c = turn * m.c;
+  m.d = turn * m.d;
+  return m;
+}
+
 // V of a point at distance 1/q along the object ray: hh, hv, vv (D). `status` becomes singular where there is none.
 VG_FUNCTION vec3 sight_line_vergence(RayTransfer transfer, real q, VG_INOUT(int) status) {
   bool regular = true;

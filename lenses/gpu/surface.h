@@ -12,18 +12,20 @@ const int kTorus = 3;
 const int kBsplineHeightField = 4;
 const int kBsplineSurface = 5;
 const int kEvenBspline = 6;      // a height field whose cells are all of one size
-const uint kShapeBits = 0x7fu;   // of KINDS: the shapes above
+const uint kShapeBits = 0x67fu;  // of KINDS: the shapes
 const int kPlaced = 7;           // of KINDS: some surface is placed
 const int kSegmented = 8;        // of KINDS: some surface has a segment
+const int kFacets = 9;           // facets.h: stands for another surface, placement included
+const int kBezier = 10;          // bezier.h: likewise
 
 const int kLookupSize = 32;  // inverse map of a parametric surface: kLookupSize^2 start values of (u, v)
 
 struct SurfaceData {
-  vec4 shape;    // even spline: where its cells begin and 1/(their size), along u and v; else curvature (torus: of the revolved direction), curvature of the profile, conic constant, 1/(scale of even terms)^2
-  vec4 frame;    // cosine and sine of the axis of the revolved direction; sag and curvature of the first guess
+  vec4 shape;    // even spline: where its cells begin and 1/(their size), along u and v; mesh: least x, least y, 1/side, side of its squares; else curvature (torus: of the revolved direction), curvature of the profile, conic constant, 1/(scale of even terms)^2
+  vec4 frame;    // cosine and sine of the axis of the revolved direction; sag and curvature of the first guess; mesh: least and greatest z
   vec4 domain;   // x0, x1, y0, y1 of a patch (parametric: of its bounding box)
-  ivec4 kind;    // kind, number of even terms, cells along u, cells along v
-  ivec4 offset;  // into the table: coefficients, breaks along u, breaks along v, inverse lookup
+  ivec4 kind;    // kind, number of even terms, cells along u, cells along v; Bezier: nodes of the tree in their place
+  ivec4 offset;  // into the table: coefficients, breaks along u, breaks along v, inverse lookup; Bezier: patches, tree
   vec4 shift;    // of a placed surface: decentration, height, 1; else 0
   vec4 slope;    // of a placed surface: its slope, -, -
   ivec4 parts;   // into the table: the segment's surface and boundary; the boundary's edges, 0 without a segment; KINDS
@@ -35,6 +37,16 @@ struct SurfacePoint {
   vec2 gradient;
   vec3 hessian;  // z_xx, z_xy, z_yy
   bool inside;   // the surface exists at this (x, y)
+};
+
+// Where a ray meets a surface.
+struct SurfaceHit {
+  bool found;
+  bool ledge;      // not found, as the ray ends in the wall between a segment and its base, before t
+  bool unsettled;  // not found, and not searched for any longer (HURRIED)
+  int steps;       // of Newton's method; -1 where another search or a closed form found it
+  real t;
+  SurfacePoint point;
 };
 
 VG_FUNCTION SurfacePoint conic_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
@@ -254,77 +266,4 @@ VG_FUNCTION SurfacePoint bspline_surface_point(TABLE_PARAM SurfaceData s, vec2 p
                   w.y <= high.y + slack.y && abs(det) > real(0);
   point.inside = on_patch && dot(miss, miss) < real(1e-12);
   return point;
-}
-
-// The surface's shape in its own axes.
-VG_FUNCTION SurfacePoint shape_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
-  if (IS_KIND(s, kEvenBspline)) {
-    return even_bspline_point(TABLE s, p);
-  }
-  if (IS_KIND(s, kBsplineHeightField)) {
-    return bspline_height_point(TABLE s, p);
-  }
-  if (IS_KIND(s, kTorus)) {
-    return torus_point(s, p);
-  }
-  if (IS_KIND(s, kBsplineSurface)) {
-    return bspline_surface_point(TABLE s, p);
-  }
-  return conic_point(TABLE KINDS(kinds) s, p);  // plane and sphere are conics
-}
-
-// A point of the shape, found at p - decentration, as a point of the placed surface at p.
-VG_FUNCTION SurfacePoint placed(SurfaceData s, SurfacePoint point, vec2 p) {
-  vec2 slope = vec2(s.slope.x, s.slope.y);
-  point.z += dot(slope, p) + s.shift.z;
-  point.gradient += slope;
-  return point;
-}
-
-VG_FUNCTION SurfacePoint placed_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
-  vec2 q = p;
-  if (IS_PLACED(s)) {
-    q -= vec2(s.shift.x, s.shift.y);
-  }
-  SurfacePoint point = shape_point(TABLE KINDS(kinds) s, q);
-  if (IS_PLACED(s)) {
-    point = placed(s, point, p);
-  }
-  return point;
-}
-
-// The second surface of a segmented one, as surface_model.cpp lays it down.
-VG_FUNCTION SurfaceData segment_surface(TABLE_PARAM SurfaceData s) {
-  int at = s.parts.x;
-  SurfaceData segment;
-  segment.shape = TABLE_AT(at);
-  segment.frame = TABLE_AT(at + 1);
-  segment.domain = TABLE_AT(at + 2);
-  segment.kind = ivec4(TABLE_AT(at + 3));
-  segment.offset = ivec4(TABLE_AT(at + 4));
-  segment.shift = TABLE_AT(at + 5);
-  segment.slope = TABLE_AT(at + 6);
-  segment.parts = ivec4(0, 0, 0, 0);
-  return segment;
-}
-
-// Even-odd rule; an edge is (x, dx/dy, y, y of its other end). Neighbouring edges share their end's y to the last bit,
-// so that a point on a level with a corner is counted once.
-VG_FUNCTION bool in_segment(TABLE_PARAM SurfaceData s, vec2 p) {
-  bool inside = false;
-  for (int i = 0; i < s.parts.z; ++i) {
-    vec4 edge = TABLE_AT(s.parts.y + i);
-    bool level = (edge.z > p.y) != (edge.w > p.y);
-    inside = inside != (level && p.x < edge.x + (p.y - edge.z) * edge.y);
-  }
-  return inside;
-}
-
-// The surface in lens axes.
-VG_FUNCTION SurfacePoint surface_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2 p) {
-  SurfaceData one = s;
-  if (IS_SEGMENTED(s) && in_segment(TABLE s, p)) {
-    one = segment_surface(TABLE s);
-  }
-  return placed_point(TABLE KINDS(kinds) one, p);
 }

@@ -1,11 +1,5 @@
 // One ray in, one wavefront out: the record of the `trace` command, the same in every engine.
 
-const int kViewingFixed = 0;
-const int kViewingScanning = 1;
-const int kViewingGaze = 2;
-
-#define IS_VIEWING(viewing, k) ((VIEWINGS & (1u << uint(k))) != 0u && (VIEWINGS == (1u << uint(k)) || (viewing) == (k)))
-
 struct TraceInput {
   vec4 direction;  // from the pupil outward, primary axes, unit; w: 1/distance from the front surface, 0 at infinity
   vec4 gaze;       // primary axes, unit
@@ -21,16 +15,6 @@ struct TraceOutput {
   vec4 front_hit;
   vec4 object_direction;
 };
-
-VG_FUNCTION mat3 eye_turn(int viewing, vec3 gaze, vec3 direction) {
-  if (IS_VIEWING(viewing, kViewingFixed)) {
-    return mat3(real(1));
-  }
-  if (IS_VIEWING(viewing, kViewingScanning)) {
-    return listing_rotation(direction);
-  }
-  return listing_rotation(gaze);
-}
 
 VG_FUNCTION TraceOutput trace_record(TABLE_PARAM LensData lens, EyeData eye, TraceInput ray) {
   vec3 direction = vec3(ray.direction.x, ray.direction.y, ray.direction.z);

@@ -144,9 +144,7 @@ bool square_shows_more(ViewData view, vec2 at, uint shown) {
   if (shows_rim(ray.status)) {
     return false;
   }
-  if (ray.status == kStatusOk) {
-    ray.transfer = sight_line_transfer(view.lens, ray.line);
-  }
+  take_transfer(view, ray);
   SceneRay middle = scene_ray(view, ray);
   ray_kind = kRaySolid;
   Hit hit;

@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One chief ray a pixel, where other kernels have aimed it (rays) and found what it meets (tile).
+// One chief ray a pixel, where other kernels have aimed it (rays) and, unless kFindHits says otherwise, found what it
+// meets (tile).
+#define TRANSFER_IS_KEPT (kKeepTransfer != 0u)
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
@@ -11,6 +13,25 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 13) uniform usamplerBuffer found_hits;
 layout(binding = 14) uniform samplerBuffer ray_origins;  // as ray_out.glsl leaves them
 layout(binding = 15) uniform samplerBuffer ray_directions;
+layout(binding = 16) uniform samplerBuffer kept;
+layout(constant_id = 7) const uint kFindHits = 0u;  // 1: what a ray meets is found here
+
+RayTransfer kept_transfer(int at) {
+  vec4 a = texelFetch(kept, kTransferTexels * at);
+  vec4 b = texelFetch(kept, kTransferTexels * at + 1);
+  vec4 c = texelFetch(kept, kTransferTexels * at + 2);
+  vec4 d = texelFetch(kept, kTransferTexels * at + 3);
+  return RayTransfer(mat2(a.xy, a.zw), mat2(b.xy, b.zw), mat2(c.xy, c.zw), mat2(d.xy, d.zw));
+}
+
+SightLine found_line(ViewData view, mat3 turn, vec3 direction, vec4 origin, vec4 towards) {
+  if (!TRANSFER_IS_KEPT) {
+    return follow_sight_line(view.lens, view.eye, turn, direction, vec2(origin.w, towards.w));
+  }
+  SightLine line = bare_sight_line(view.eye, turn, direction, vec2(0.0), vec2(0.0));
+  line.direction_object = transpose(mat3(view.world_x.xyz, view.world_y.xyz, view.world_z.xyz)) * towards.xyz;
+  return line;
+}
 
 // What other kernels know of a pixel's ray.
 struct KnownRay {
@@ -24,20 +45,27 @@ KnownRay known_ray(int at) {
   KnownRay known;
   known.origin = texelFetch(ray_origins, at);
   known.towards = texelFetch(ray_directions, at);
-  uint named = texelFetch(found_hits, at).x;
+  uint named = kFindHits == 0u ? texelFetch(found_hits, at).x : kNoTriangle;
   known.met = named != kNoTriangle;
   known.hit = plane_hit(known.met ? named : 0u, known.origin.xyz, known.towards.xyz).hit;
   return known;
 }
 
-PixelRay found_ray(ViewData view, vec3 direction, KnownRay known) {
+PixelRay found_ray(ViewData view, vec3 direction, KnownRay known, int at) {
+  vec4 towards = known.towards;
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
-  vec2 lengths = vec2(known.origin.w, known.towards.w);
-  PixelRay ray = unseen_ray(follow_sight_line(view.lens, view.eye, turn, direction, lengths));
+  PixelRay ray = unseen_ray(found_line(view, turn, direction, known.origin, towards));
   int beside = LENS_USED && view.lens.glass.w != 0.0 ? kStatusMissBack : kStatusOk;
-  ray.status = lengths.y > 0.0 ? kStatusOk : lengths.y < 0.0 ? int(-lengths.y) : beside;
+  ray.status = towards.w > 0.0 ? kStatusOk : towards.w < 0.0 ? int(-towards.w) : beside;
+  if (ray.status != kStatusOk) {
+    ray.line.direction_object = ray.line.direction;  // there was no lens to follow
+  }
+  if (TRANSFER_IS_KEPT && towards.w > 0.0) {
+    ray.transfer = kept_transfer(at);
+    ray.across = upright_axis(ray.line.e_h, ray.line.direction_object);
+  }
   if (!shows_rim(ray.status)) {
-    see(view, ray, SceneRay(known.origin.xyz, known.towards.xyz), true, known.met, known.hit);
+    see(view, ray, SceneRay(known.origin.xyz, towards.xyz), kFindHits == 0u, known.met, known.hit);
   }
   return ray;
 }
@@ -52,5 +80,5 @@ void main() {
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
   KnownRay known = known_ray(at);  // first, so that memory answers while the lens is looked through
   vec3 direction = pixel_direction(view, vec2(p) + 0.5);
-  leave_pixel(view, found_ray(view, direction, known), at);
+  leave_pixel(view, found_ray(view, direction, known, at), at);
 }

@@ -9,17 +9,19 @@ const int kModeAstigmatism = 4;
 const int kModeAccommodation = 5;
 const int kModeBlur = 6;
 
-// 96 bytes of push constants, the same for every kernel of a frame.
+// 112 bytes of push constants, the same for every kernel of a frame.
 struct FrameData {
   ivec4 size;      // width, height, views, mode
   ivec4 sampling;  // index of this sample (dof), -, seed, colour map
-  vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor, -
+  vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor,
+                   // how many pixels the pupil's half sets apart what lies a dioptre apart
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
   // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl). w: 0.
   ivec4 view;
   uvec4 sample_point;  // dof: the point that all pixels make their own (sample_pattern.h)
+  vec4 corners;  // of interpolated lens rays: pixels between them along x and y, how many along x and y
 };
 
 // A traced pixel, 16 bytes: radiance and the blur ellipse as half floats, the depth beside them.
@@ -29,6 +31,14 @@ struct FrameData {
 
 // A pixel's wavefront, two vec4: (V.hh, V.hv, V.vv, accommodation), (blur major semi-axis in rad, depth, status, -).
 const int kWavefrontTexels = 2;
+
+// A kept ray-transfer matrix (LensAccuracy), four vec4: A, B, C, D by columns, the outgoing basis by upright_axis.
+const int kTransferTexels = 4;
+// A corner of interpolated lens rays, six vec4: (origin, code), (direction, of length 1
+// along the picture's axis, -) in primary axes, the transfer.
+// code: the status and, in bits above it, which segments the ray has met.
+const int kCornerTexels = 6;
+const int kCornerStatusBits = 8;  // codes are less than this where no segment is met
 
 // Squares of pixels that share a beam (beam.glsl), row by row.
 const int kBeamBlock = 4;
@@ -40,3 +50,18 @@ const uint kListMostGroups = 65535u;
 const uint kListCountAt = 3u;
 const uint kListFirstAt = 4u;
 const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alone, so that few rays may miss it
+
+// Approximate defocus looks at a picture tile by tile.
+const int kBlurTile = 8;         // px a side
+const int kMostBlurTiles = 16;   // as far as a tile looks for blur that reaches it
+const float kBlurParallax = 0.5; // px that the pupil's half may set apart what counts as one depth
+const float kNearestFill = 1.0; // px^-2: how soon light behind an edge counts less with distance
+const float kWideBlur = 4.0;     // px, a minor semi-axis from which neighbours may share a gather
+
+// Means over squares of 2, 4 and 8 pixels: level after level, whole tiles, row by row.
+#ifndef __cplusplus
+int blur_level_width(ivec2 tiles, int level) { return tiles.x * (kBlurTile >> level); }
+int blur_level_start(ivec2 tiles, int level) {
+  return tiles.x * tiles.y * (level > 2 ? 20 : (level > 1 ? 16 : 0));
+}
+#endif

@@ -1,12 +1,20 @@
 // Approximate defocus (paper, section 6.3): each pixel gathers over its own blur ellipse. The ellipse comes from the
-// eigenvalues of the residual, and the kernel is the uniform ellipse of a round pupil rather than the paper's Gaussian.
-// A neighbour in front of this pixel counts only as far as its own blur reaches here, so that nothing sharp bleeds.
+// eigenvalues of the residual, and the kernel is the uniform ellipse of a round pupil rather than the paper's Gaussian,
+// which kGaussian asks for. Here: what its kernels share.
 #include "render/shaders/frame.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform usamplerBuffer pixels;
 layout(push_constant) uniform Frame { FrameData frame; };
 #include "render/shaders/group.glsl"
+layout(constant_id = 0) const int kTaps = 0;  // about the most of a gathered blur; 0: nothing is blurred
+layout(constant_id = 1) const uint kGaussian = 0u;
+layout(constant_id = 2) const uint kEncode = 0u;  // 1: to the display's bytes, 0: to linear radiance
+layout(constant_id = 3) const int kRate = 1;  // px between gathered ones where the minor semi-axis is 4 px or more
+layout(binding = 0) uniform usamplerBuffer pixels;
+
+const float kPi = 3.14159265358979;
+// How far a kernel reaches, in radii of the disc: a Gaussian of the disc's second moments has lost 0.03 % there.
+float kernel_reach() { return kGaussian != 0u ? 2.0 : 1.0; }
 
 struct Tap {
   vec3 radiance;
@@ -14,8 +22,7 @@ struct Tap {
   float depth;
 };
 
-Tap tap_at(int at) {
-  uvec4 p = texelFetch(pixels, at);
+Tap unpack_tap(uvec4 p) {
   vec2 rg = unpackHalf2x16(p.x);
   vec2 bx = unpackHalf2x16(p.y);
   Tap tap;
@@ -25,77 +32,99 @@ Tap tap_at(int at) {
   return tap;
 }
 
+// Of a square of 2 pixels what lies nearest: its share of the square, and its means.
+struct Square {
+  vec3 radiance;
+  float coverage;
+  vec3 ellipse;
+  float nearness;
+};
+
+uvec4 pack_square(Square square) {
+  return uvec4(packHalf2x16(square.radiance.rg), packHalf2x16(vec2(square.radiance.b, square.ellipse.x)),
+               packHalf2x16(square.ellipse.yz), packHalf2x16(vec2(square.nearness, square.coverage)));
+}
+
+Square unpack_square(uvec4 p) {
+  vec2 bx = unpackHalf2x16(p.y);
+  vec2 nc = unpackHalf2x16(p.w);
+  return Square(vec3(unpackHalf2x16(p.x), bx.x), nc.y, vec3(bx.y, unpackHalf2x16(p.z)), nc.x);
+}
+
+Tap tap_at(int at) { return unpack_tap(texelFetch(pixels, at)); }
+
 // 1/depth orders points from near to far with the sky last.
 float nearness(float depth) { return depth > 0.0 ? 1.0 / depth : 0.0; }
 
 float major(vec3 s) { return 0.5 * (s.x + s.z) + sqrt(0.25 * (s.x - s.z) * (s.x - s.z) + s.y * s.y); }
 
-// How far inside its own blur ellipse a point at `offset` from a tap lies: 1 inside, 0 outside, a pixel's width between.
-float covers(vec3 s, vec2 offset) {
-  float trace = s.x + s.z;
-  // Half a pixel more than the ellipse, so that a blur smaller than the pixel grid still covers its own pixel.
-  vec3 wide = s + vec3(0.5, 0.0, 0.5);
-  float det = wide.x * wide.z - wide.y * wide.y;
-  vec2 inner = vec2(wide.z * offset.x - wide.y * offset.y, wide.x * offset.y - wide.y * offset.x) / max(det, 1e-6);
-  return clamp((1.0 - length(inner)) * (0.5 * trace + 0.5) + 0.5, 0.0, 1.0);
+ivec2 tile_count() { return (frame.size.xy + kBlurTile - 1) / kBlurTile; }
+
+// An ellipse whose second moments are less by `variance` (px^2) along every direction: what the taps' own size adds.
+vec3 shrunk(vec3 s, float variance) {
+  float a = major(s);
+  float b = max(s.x + s.z - a, 0.0);
+  // A uniform disc's second moments are a quarter of its squared radius.
+  float a_less = sqrt(max(a * a - 4.0 * variance, 0.0));
+  float b_less = sqrt(max(b * b - 4.0 * variance, 0.0));
+  float slope = a - b > 1e-3 * a ? (a_less - b_less) / (a - b) : 0.0;
+  float level = a_less - slope * a;
+  return slope * s + vec3(level, 0.0, level);
 }
 
-// How much a tap at `offset` may give: all of it from beside or behind, and from in front as far as its blur reaches.
-float visible_share(Tap tap, float here, vec2 offset) {
-  float in_front = clamp((nearness(tap.depth) - here) * 20.0 / max(here, 0.05), 0.0, 1.0);
-  return tap.depth < 0.0 ? 0.0 : mix(1.0, covers(tap.ellipse, offset), in_front);
+// An ellipse over a grid of cells, row by row: each row's cells count by how much of them the ellipse covers, or by a
+// Gaussian of its second moments. In cells; `centre` from the middle of cell (0, 0).
+struct Rows {
+  vec2 centre;
+  float top;    // the ellipse's extent upwards
+  float lean;   // how far a row's middle moves with each row
+  float width;  // half of the middle row
+};
+
+Rows rows_of(vec3 s, vec2 centre) {
+  float top = max(sqrt(s.y * s.y + s.z * s.z), 0.02);
+  float det = max(s.x * s.z - s.y * s.y, 0.0);
+  return Rows(centre, top, s.y * (s.x + s.z) / (top * top), max(det / top, 0.02));
 }
 
-// A blur within the pixel: the nine weights with the ellipse's own second moments, S S^T / 4.
-vec3 small_blur(Tap centre, ivec2 p, int base) {
-  vec3 s = centre.ellipse;
+// First and last row, or cell of a row.
+ivec2 cells_between(float low, float high) { return ivec2(floor(low + 0.5), ceil(high - 0.5)); }
+
+ivec2 row_range(Rows rows) {
+  float top = kernel_reach() * rows.top;
+  return cells_between(rows.centre.y - top, rows.centre.y + top);
+}
+
+// The integral of the unit circle's half width.
+float half_widths(float y) {
+  float u = clamp(y, -1.0, 1.0);
+  return 0.5 * (u * sqrt(1.0 - u * u) + asin(u));
+}
+
+// From where to where a row's part of the ellipse goes: its mean over the row's height.
+vec2 row_span(Rows rows, int row) {
+  float y = float(row) - rows.centre.y;
+  float middle = rows.centre.x + rows.lean * y;
+  float part = kernel_reach();
+  if (kGaussian == 0u) {
+    part = rows.top * (half_widths((y + 0.5) / rows.top) - half_widths((y - 0.5) / rows.top));
+  }
+  return middle + rows.width * vec2(-part, part);
+}
+
+float cell_weight(Rows rows, vec2 span, int row, int cell) {
+  if (kGaussian != 0u) {
+    vec2 inner = vec2((float(cell) - 0.5 * (span.x + span.y)) / rows.width, (float(row) - rows.centre.y) / rows.top);
+    return exp(-2.0 * dot(inner, inner));
+  }
+  return max(min(float(cell) + 0.5, span.y) - max(float(cell) - 0.5, span.x), 0.0);
+}
+
+// The nine weights of a blur within the pixel, with the ellipse's own second moments, S S^T / 4.
+float small_weight(vec3 s, ivec2 o) {
   vec3 m = 0.25 * vec3(s.x * s.x + s.y * s.y, s.y * (s.x + s.z), s.y * s.y + s.z * s.z);
   float diagonal = 0.5 * abs(m.y);
   vec2 straight = max(0.5 * m.xz - diagonal, vec2(0.0));
-  float here = nearness(centre.depth);
-  vec3 mean = centre.radiance;
-  for (int k = 0; k < 9; ++k) {
-    ivec2 o = ivec2(k % 3 - 1, k / 3 - 1);
-    bool leans = o.x * o.y != 0 && float(o.x * o.y) * m.y > 0.0;
-    float w = leans ? diagonal : (o.y == 0 && o.x != 0 ? straight.x : (o.x == 0 && o.y != 0 ? straight.y : 0.0));
-    ivec2 q = clamp(p + o, ivec2(0), frame.size.xy - 1);
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
-    mean += w * visible_share(tap, here, vec2(o)) * (tap.radiance - centre.radiance);
-  }
-  return mean;
-}
-
-vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
-  vec3 s = centre.ellipse;
-  float minor = max(s.x + s.z - reach, 0.5);
-  int taps = int(clamp(3.0 * reach * minor, 16.0, 512.0));  // about one a pixel of the ellipse
-  float here = nearness(centre.depth);
-  vec3 sum = centre.radiance;
-  float weight = 1.0;
-  vec2 turn = vec2(1.0, 0.0);
-  const vec2 golden = vec2(-0.7373688780783197, 0.6754902942615238);
-  for (int k = 0; k < taps; ++k) {
-    float radius = sqrt((float(k) + 0.5) / float(taps));
-    turn = vec2(turn.x * golden.x - turn.y * golden.y, turn.x * golden.y + turn.y * golden.x);
-    vec2 disc = turn * radius;
-    ivec2 q = p + ivec2(round(vec2(s.x * disc.x + s.y * disc.y, s.y * disc.x + s.z * disc.y)));
-    q = clamp(q, ivec2(0), frame.size.xy - 1);
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
-    float w = visible_share(tap, here, vec2(q - p));
-    sum += w * tap.radiance;
-    weight += w;
-  }
-  return sum / weight;
-}
-
-// Linear radiance as two words of half floats.
-uvec2 blurred_pixel(ivec2 p, int base) {
-  Tap centre = tap_at(base + p.y * frame.size.x + p.x);
-  float reach = major(centre.ellipse);
-  vec3 mean = centre.radiance;
-  // The rim stays where it is, and what is in focus stays as it is, to the bit.
-  if (centre.depth >= 0.0 && reach >= frame.limits.x) {
-    mean = reach < 1.0 ? small_blur(centre, p, base) : gathered_blur(centre, reach, p, base);
-  }
-  return uvec2(packHalf2x16(mean.rg), packHalf2x16(vec2(mean.b, 1.0)));
+  bool leans = o.x * o.y != 0 && float(o.x * o.y) * m.y > 0.0;
+  return leans ? diagonal : (o.y == 0 && o.x != 0 ? straight.x : (o.x == 0 && o.y != 0 ? straight.y : 0.0));
 }

@@ -1,5 +1,7 @@
 // One ray of a pixel, all the way: pupil, back, front, scene, and the wavefront back at the pupil.
 
+#include "render/shaders/picture.glsl"
+
 struct PixelRay {
   SightLine line;  // in the eye's primary axes
   int status;
@@ -8,6 +10,7 @@ struct PixelRay {
   vec3 normal;
   uint material;
   RayTransfer transfer;  // from the pupil to where the ray leaves for the scene
+  vec3 across;           // the first axis of its basis there
 };
 
 // What one ray's texture samples average over, in pixels: less where several rays share a pixel.
@@ -15,27 +18,19 @@ struct PixelRay {
 #define FOOTPRINT_PIXELS 1.0
 #endif
 
+// True where the rays come with their ray-transfer matrices.
+#ifndef TRANSFER_IS_KEPT
+#define TRANSFER_IS_KEPT false
+#endif
+
 const vec3 kRimRadiance = vec3(0.015);
 
 mat3 picture_axes(ViewData view) { return mat3(view.picture_x.xyz, view.picture_y.xyz, view.picture_z.xyz); }
 
-// at: pixels from the picture's upper left corner. Tangents of the angles right and up of the picture's axis.
-vec2 picture_tangents(ViewData view, vec2 at) {
-  vec2 size = vec2(float(frame.size.x), float(frame.size.y));
-  return vec2(mix(-view.tangents.x, view.tangents.y, at.x / size.x), mix(view.tangents.w, -view.tangents.z, at.y / size.y));
-}
-
-// The direction in primary axes that a pixel stands for, from the pupil.
+// at: pixels from the picture's upper left corner. The direction in primary axes that it stands for, from the pupil.
 vec3 pixel_direction(ViewData view, vec2 at) {
-  vec3 direction = normalize(picture_axes(view) * vec3(picture_tangents(view, at), -1.0));
-  if (MAY_BE_VIRTUAL && view.virtual_image.x > 0.0) {
-    // A headset's pixel is a point of its virtual image, seen from where the pupil really is.
-    vec3 point = vec3(0.0, 0.0, view.virtual_image.y) + view.virtual_image.x * direction;
-    int viewing = int(view.gaze.w);
-    vec3 pupil = turned_pupil(eye_turn(viewing, view.gaze.xyz, direction), view.eye.pupil.y);
-    direction = normalize(point - pupil);
-  }
-  return direction;
+  vec2 tangents = tangents_at(view.tangents, at / vec2(frame.size.xy));
+  return picture_direction(picture_axes(view), tangents, view.virtual_image, view.gaze, view.eye.pupil.y);
 }
 
 vec3 world_direction(ViewData view, vec3 d) { return view.world_x.xyz * d.x + view.world_y.xyz * d.y + view.world_z.xyz * d.z; }
@@ -57,19 +52,8 @@ struct Beam {
 
 Beam pixel_beam(ViewData view, PixelRay ray) {
   SightLine line = ray.line;
-  vec3 e1 = line.e_h;
-  vec3 e2 = line.e_v;
-  if (view.lens.glass.w != 0.0 && ray.status == kStatusOk) {
-    // The basis that the transfer carries along (refract_transfer), in the lens's axes and back.
-    mat3 frame = IS_ON_EYE(view.lens) ? line.turn : mat3(1.0);
-    vec3 f = to_lens_direction(view.lens, transpose(frame) * line.e_h);
-    f = normalize(f - dot(f, line.path.direction_glass) * line.path.direction_glass);
-    f = normalize(f - dot(f, line.path.direction_object) * line.path.direction_object);
-    e1 = frame * from_lens_direction(view.lens, f);
-    e2 = cross(e1, line.direction_object);
-  }
-  vec3 w1 = world_direction(view, e1);
-  vec3 w2 = world_direction(view, e2);
+  vec3 w1 = world_direction(view, ray.across);
+  vec3 w2 = world_direction(view, cross(ray.across, line.direction_object));
   float cosine = -dot(line.direction, view.picture_z.xyz);
   float step_x = FOOTPRINT_PIXELS * cosine * (view.tangents.x + view.tangents.y) / float(frame.size.x);
   float step_y = FOOTPRINT_PIXELS * cosine * (view.tangents.z + view.tangents.w) / float(frame.size.y);
@@ -109,12 +93,20 @@ PixelRay unseen_ray(SightLine line) {
   ray.radiance = kRimRadiance;
   ray.depth = -1.0;
   ray.transfer = free_flight(0.0);
+  ray.across = line.e_h;
   return ray;
 }
 
 PixelRay aim_pixel(ViewData view, vec3 direction, vec2 pupil_offset, vec2 momentum) {
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
   return unseen_ray(trace_sight_line(view.lens, view.eye, turn, direction, pupil_offset, momentum));
+}
+
+void take_transfer(ViewData view, inout PixelRay ray) {
+  if (ray.status == kStatusOk) {
+    ray.transfer = sight_line_transfer(view.lens, ray.line);
+    ray.across = transfer_axis(view.lens, ray.line);
+  }
 }
 
 struct Sight {
@@ -190,8 +182,8 @@ vec3 seen_radiance(ViewData view, int status, vec3 radiance) {
 
 // Completes a ray that is no rim.
 void see(ViewData view, inout PixelRay ray, SceneRay beyond, bool known, bool met, Hit hit) {
-  if (ray.status == kStatusOk) {
-    ray.transfer = sight_line_transfer(view.lens, ray.line);
+  if (!TRANSFER_IS_KEPT) {
+    take_transfer(view, ray);
   }
   Beam beam;
   if (HAS(kFeatureTexture)) {

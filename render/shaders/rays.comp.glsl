@@ -24,5 +24,5 @@ void main() {
   if (LENS_USED && ray.status == kStatusUnsettled) {
     APPEND(unsettled, uint(at))
   }
-  leave_ray(view, ray, at);
+  leave(view, ray, at);
 }

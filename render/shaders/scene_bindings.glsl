@@ -11,7 +11,8 @@ layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // surface_kind
 #define MAY_CROSS ((kSurfaceKinds >> 31) != 0u)
 layout(constant_id = 5) const uint kLensIterations = 0u;
 #define NEWTON_STEPS int(kLensIterations)
-layout(constant_id = 7) const uint kViewTraits = 0xffffffffu;  // view_traits() of render/view_setup.hpp
+layout(constant_id = 6) const uint kKeepTransfer = 0u;  // 1: rays leave their ray-transfer matrices, found rays take them
+layout(constant_id = 9) const uint kViewTraits = 0xffffffffu;  // view_traits() of render/view_setup.hpp
 #define VIEWINGS (kViewTraits & 7u)
 #define MAY_SIT_ON_EYE ((kViewTraits & 8u) != 0u)
 #define MAY_BE_VIRTUAL ((kViewTraits & 16u) != 0u)

@@ -16,6 +16,6 @@ void main() {
   for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
     int at = int(unsettled[kListFirstAt + i]);
     int in_view = at - frame.view.x * frame.size.x * frame.size.y;
-    leave_ray(view, aim_pixel(view, ivec2(in_view % frame.size.x, in_view / frame.size.x), at), at);
+    leave(view, aim_pixel(view, ivec2(in_view % frame.size.x, in_view / frame.size.x), at), at);
   }
 }

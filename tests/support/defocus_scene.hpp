@@ -49,13 +49,13 @@ inline render::Scene layered_scene() {
   add_wall(scene, wall, 0.0F, 0.0F, static_cast<float>(kFarLayer), 0.4F);
   add_square(scene, slat, {0.003F, -0.06F, -near}, {0.012F, 0.002F, 0}, {0.002F, 0.12F, 0});
   add_square(scene, slat, {-0.022F, -0.06F, -near}, {0.0015F, 0, 0}, {0.006F, 0.12F, 0});
-  add_square(scene, slat, {-0.06F, -0.024F, -near}, {0.12F, 0.008F, 0}, {0, 0.006F, 0});
+  add_square(scene, slat, {-0.06F, -0.018F, -near - 0.01F}, {0.12F, 0.008F, 0}, {0, 0.006F, 0});
   add_ball(scene, leaf, {-0.01F, 0.012F, -near}, 0.007F, 24);
   add_targets(scene);
   return scene;
 }
 
-// Lamps of 4 to 40 times paper in front of a dim wall, some of them behind a card's edge.
+// Lamps of 4 to 25 times paper in front of a dim wall, some of them behind a card's edge.
 inline render::Scene lamp_scene() {
   render::Scene scene = dark_scene();
   const auto wall = add_material(scene, patterned(add_box_pattern(scene, 3, 512), glm::vec3(0.1F, 0.12F, 0.2F)));
@@ -65,7 +65,7 @@ inline render::Scene lamp_scene() {
   std::mt19937 random(5);
   const auto uniform = [&] { return static_cast<float>(random() % 1000) / 1000.0F; };
   for (int lamp = 0; lamp < 14; ++lamp) {
-    const float radiance = 4.0F * std::pow(10.0F, uniform());
+    const float radiance = 4.0F * std::pow(6.0F, uniform());
     const auto glow = add_material(scene, unlit({radiance, radiance * (0.5F + 0.5F * uniform()),
                                                  radiance * (0.3F + 0.7F * uniform()), 1.0F}));
     const float x = 0.26F * (uniform() - 0.5F), y = 0.26F * (uniform() - 0.5F);

@@ -16,8 +16,11 @@ namespace support {
 
 inline constexpr const char* kGazeLayer = "XR_APILAYER_VERGENCE_gaze";
 
-// Loads the gaze layer, and others above it (named before it) or below.
+// Loads the gaze layer, with nothing yet to give, and others above it (named before it) or below.
 inline void enable_layers(const std::string& names) {
+  for (const char* name : {"TRACE", "SOCKET", "END", "FORCE"}) {
+    unsetenv((std::string("VERGENCE_GAZE_") + name).c_str());
+  }
   setenv("XR_API_LAYER_PATH", VERGENCE_GAZE_LAYER ":/usr/share/openxr/1/api_layers/explicit.d", 1);
   setenv("XR_ENABLE_API_LAYERS", names.c_str(), 1);
 }

@@ -1,5 +1,5 @@
-// A Monado of the test's own: its service with the simulated headset and the compositor that shows nothing, in a
-// private runtime directory, and an environment in which OpenXR programs of this process find it.
+// A Monado of the test's own: its service in a private runtime directory, and an environment in which OpenXR programs
+// of this process, and its children, find it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -23,9 +23,19 @@
 
 namespace support {
 
+struct MonadoConfig {
+  // False: the compositor that shows nothing and reads no pixels, at 20 Hz. True: in a window of the X server of
+  // DISPLAY.
+  bool visible = false;
+  // The headset that is told its poses (remote_head.hpp) instead of the simulated one, which wobbles by the clock.
+  bool remote = false;
+};
+
 class Monado {
  public:
-  Monado() {
+  static constexpr int kRemotePort = 4243;  // in a network namespace of the test's own
+
+  explicit Monado(const MonadoConfig& config = {}) : config_(config) {
     std::string pattern = (std::filesystem::temp_directory_path() / "vergence-monado-XXXXXX").string();
     if (!mkdtemp(pattern.data())) {
       throw std::runtime_error("no temporary directory");
@@ -34,6 +44,11 @@ class Monado {
     setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
     setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
     setenv("XR_RUNTIME_JSON", VERGENCE_MONADO "/share/openxr/1/openxr_monado.json", 1);
+    if (config.remote) {
+      std::filesystem::create_directory(folder_ / "monado");
+      std::ofstream(folder_ / "monado" / "config_v0.json")
+          << R"({"active": "remote", "remote": {"version": 0, "port": )" << kRemotePort << R"(, "view_count": 2}})";
+    }
     start();
   }
 
@@ -82,8 +97,11 @@ class Monado {
 
  private:
   [[noreturn]] void run_service() const {
-    setenv("XRT_COMPOSITOR_NULL", "1", 1);
-    setenv("SIMULATED_ENABLE", "1", 1);
+    setenv(config_.visible ? "XRT_COMPOSITOR_FORCE_XCB" : "XRT_COMPOSITOR_NULL", "1", 1);
+    setenv("XRT_COMPOSITOR_SCALE_PERCENTAGE", "30", 1);
+    if (!config_.remote) {
+      setenv("SIMULATED_ENABLE", "1", 1);
+    }
     setenv("XRT_NO_STDIN", "1", 1);
     unsetenv("XR_ENABLE_API_LAYERS");
     if (!freopen((folder_ / "log").c_str(), "w", stderr) || !freopen("/dev/null", "w", stdout)) {
@@ -106,6 +124,7 @@ class Monado {
     return connected;
   }
 
+  MonadoConfig config_;
   std::filesystem::path folder_;
   pid_t service_ = -1;
 };

@@ -261,6 +261,10 @@ TEST_F(GazeLayerChain, AnswersForTheEyesPathsThatTheRuntimeWouldRefuse) {
   EXPECT_EQ(runtime_.state_subaction, static_cast<XrPath>(XR_NULL_PATH));
   EXPECT_FALSE(is_active(session, right)) << "no hand is there";
   EXPECT_EQ(locate(space).locationFlags, 15U);
+  runtime_.hand_flags = 15;
+  EXPECT_EQ(resync(session, right), XR_SUCCESS);
+  EXPECT_TRUE(is_active(session, right));
+  EXPECT_FALSE(is_active(session, eyes())) << "a hand in use says nothing about the eyes";
 }
 
 TEST_F(GazeLayerChain, RefusesEyesOfAnActionThatIsNotTheirs) {

@@ -2,9 +2,9 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "tracking/input_error.hpp"
-#include "xr/layer/gaze_trace.hpp"
 #include "xr/layer/socket_gaze.hpp"
 
 namespace xr::layer {
@@ -52,7 +52,11 @@ GazeSettings settings_from_environment() {
 std::unique_ptr<GazeSource> open_source(const GazeSettings& settings,
                                         std::function<std::optional<XrTime>(double)> time_of_monotonic) {
   if (!settings.trace.empty()) {
-    return std::make_unique<RecordedGaze>(read_gaze_trace(settings.trace), settings.at_end);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(settings.trace, error)) {  // of which some would keep the program waiting
+      throw tracking::InputError(settings.trace, "", "is no file; VERGENCE_GAZE_TRACE names a recorded trace");
+    }
+    return std::make_unique<RecordedGaze>(tracking::read_gaze_trace(settings.trace), settings.at_end);
   }
   if (!settings.socket.empty()) {
     SocketGaze::Config config;

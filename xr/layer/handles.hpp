@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -51,7 +50,6 @@ struct Action {
   std::shared_ptr<ActionSet> set;
   XrActionType type = XR_ACTION_TYPE_POSE_INPUT;
   bool of_eyes = false;                 // /user/eyes_ext is among its subaction paths
-  bool of_others = false;               // and so are others
   std::atomic<bool> gaze = false;       // bound to the gaze
   std::atomic<bool> elsewhere = false;  // bound to something else too
 };

@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <cstring>
+#include <ctime>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "tracking/input_error.hpp"
 #include "xr/layer/entry_points.hpp"

@@ -98,8 +98,9 @@ XRAPI_ATTR XrResult XRAPI_CALL get_instance_proc_addr(XrInstance handle, const c
 
 }  // namespace xr::layer
 
-extern "C" XRAPI_ATTR XrResult XRAPI_CALL xrNegotiateLoaderApiLayerInterface(
-    const XrNegotiateLoaderInfo* loader_info, const char* layer_name, XrNegotiateApiLayerRequest* request) noexcept {
+extern "C" XRAPI_ATTR XrResult XRAPI_CALL xrNegotiateLoaderApiLayerInterface(const XrNegotiateLoaderInfo* loader_info,
+                                                                             const char* layer_name,
+                                                                             XrNegotiateApiLayerRequest* request) {
   constexpr std::uint32_t kInterface = XR_CURRENT_LOADER_API_LAYER_VERSION;
   const bool understood =
       loader_info && request && loader_info->structType == XR_LOADER_INTERFACE_STRUCT_LOADER_INFO &&

@@ -7,18 +7,20 @@
 namespace xr::layer {
 namespace {
 
+using tracking::TraceRow;
+
 constexpr double kNanoseconds = 1e9;
 
-// The last row of a loop stays as long as the rows before it did on average.
-double loop_period(const std::vector<GazeRow>& rows) {
+// The last row stays as long as the rows before it did on average.
+double loop_period(const std::vector<TraceRow>& rows) {
   const double span = rows.back().time - rows.front().time;
   return rows.size() < 2 ? 0.0 : span + span / static_cast<double>(rows.size() - 1);
 }
 
 }  // namespace
 
-RecordedGaze::RecordedGaze(std::vector<GazeRow> rows, AtEnd at_end)
-    : rows_(std::move(rows)), at_end_(at_end), period_(loop_period(rows_)) {}
+RecordedGaze::RecordedGaze(tracking::GazeTrace trace, AtEnd at_end)
+    : rows_(std::move(trace.rows)), at_end_(at_end), period_(loop_period(rows_)) {}
 
 GazeReading RecordedGaze::at(XrTime time, XrTime start) const {
   const double elapsed = static_cast<double>(std::max<XrTime>(time - start, 0)) / kNanoseconds;
@@ -31,12 +33,13 @@ GazeReading RecordedGaze::at(XrTime time, XrTime start) const {
   // neither.
   const double now = rows_.front().time + played + 0.5 / kNanoseconds;
   const auto after =
-      std::upper_bound(rows_.begin(), rows_.end(), now, [](double t, const GazeRow& row) { return t < row.time; });
-  const GazeRow& row = after == rows_.begin() ? rows_.front() : *std::prev(after);
+      std::upper_bound(rows_.begin(), rows_.end(), now, [](double t, const TraceRow& row) { return t < row.time; });
+  const TraceRow& row = after == rows_.begin() ? rows_.front() : *std::prev(after);
 
-  const bool ended = elapsed > span && at_end_ != AtEnd::loop;
-  const double age = ended && at_end_ == AtEnd::hold ? 0.0 : std::max(now - row.time, 0.0);
-  GazeReading reading{.valid = row.valid && !(ended && at_end_ == AtEnd::stop), .direction = row.direction};
+  const bool held = at_end_ == AtEnd::hold && elapsed > span;
+  const bool stopped = at_end_ == AtEnd::stop && elapsed > period_;
+  const double age = held ? 0.0 : std::max(now - row.time, 0.0);
+  GazeReading reading{.valid = row.gaze_valid && !stopped, .direction = row.gaze};
   reading.sample_time = time - static_cast<XrTime>(age * kNanoseconds);
   return reading;
 }

@@ -14,8 +14,8 @@
 #include <ctime>
 #include <utility>
 
+#include "tracking/gaze_trace_columns.hpp"
 #include "tracking/input_error.hpp"
-#include "xr/layer/gaze_line.hpp"
 
 namespace xr::layer {
 namespace {
@@ -44,6 +44,15 @@ class File {
  private:
   int file_;
 };
+
+std::string standard_header() {
+  std::string text;
+  for (const std::string_view name : tracking::kTraceColumns) {
+    text.append(name).push_back(',');
+  }
+  text.back() = '\n';
+  return text;
+}
 
 sockaddr_un address_of(const std::string& path) {
   sockaddr_un address{};
@@ -93,20 +102,23 @@ bool SocketGaze::present() const {
 }
 
 GazeReading SocketGaze::at(XrTime time, XrTime /*start*/) const {
-  GazeRow last;
+  std::optional<tracking::TraceRow> last;
   {
     const std::lock_guard lock(mutex_);
     last = last_;
   }
-  const double age = monotonic_now() - last.time;
-  if (!last.valid || age > config_.longest_silence) {
+  if (!last || !last->gaze_valid) {
+    return {};
+  }
+  const double age = monotonic_now() - last->time;
+  if (age > config_.longest_silence) {
     return {};
   }
   // A runtime that cannot tell its time: as old against the time asked for as it is against now.
   const auto guessed = time - static_cast<XrTime>(age * 1e9);
   return {.valid = true,
-          .direction = last.direction,
-          .sample_time = config_.time_of_monotonic ? config_.time_of_monotonic(last.time).value_or(guessed) : guessed};
+          .direction = last->gaze,
+          .sample_time = config_.time_of_monotonic ? config_.time_of_monotonic(last->time).value_or(guessed) : guessed};
 }
 
 void SocketGaze::run(const std::stop_token& stop) {
@@ -136,6 +148,7 @@ void SocketGaze::converse(int socket, const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     connected_ = true;
   }
+  header_ = standard_header();
   std::string pending;
   std::array<char, kLongestLine> bytes;
   while (wait_for(socket, -1, stop)) {
@@ -148,7 +161,7 @@ void SocketGaze::converse(int socket, const std::stop_token& stop) {
     }
     pending.append(bytes.data(), static_cast<std::size_t>(count));
     for (auto end = pending.find('\n'); end != std::string::npos; end = pending.find('\n')) {
-      take(std::string_view(pending).substr(0, end));
+      take(pending.substr(0, end));
       pending.erase(0, end + 1);
     }
     if (pending.size() > kLongestLine) {
@@ -160,31 +173,32 @@ void SocketGaze::converse(int socket, const std::stop_token& stop) {
   }
 }
 
-void SocketGaze::take(std::string_view line) {
+void SocketGaze::take(const std::string& line) {
   if (line.starts_with("time_s")) {
-    return;  // a header, as in a file
+    header_ = line + "\n";
+    return;
   }
-  auto parsed = parse_gaze_line(line);
-  const double now = monotonic_now();
-  if (auto* row = std::get_if<GazeRow>(&parsed)) {
+  try {
+    tracking::TraceRow row = tracking::parse_gaze_trace(header_ + line + "\n", config_.path).rows.front();
+    const double now = monotonic_now();
     // 0: the sender leaves the time to us.
-    row->time = row->time == 0.0 ? now : row->time;
-    if (row->time <= now && row->time > now - kOldestLine) {
-      const std::lock_guard lock(mutex_);
-      last_ = *row;
-      return;
+    row.time = row.time == 0.0 ? now : row.time;
+    if (!(row.time <= now && row.time > now - kOldestLine)) {
+      throw tracking::InputError(config_.path, "time_s",
+                                 "is not CLOCK_MONOTONIC in seconds, at most " +
+                                     std::to_string(static_cast<int>(kOldestLine)) + " s ago; 0 stands for now");
     }
-    parsed = "time_s is not CLOCK_MONOTONIC in seconds, at most " + std::to_string(static_cast<int>(kOldestLine)) +
-             " s ago (0: now)";
+    const std::lock_guard lock(mutex_);
+    last_ = row;
+  } catch (const tracking::InputError& error) {
+    report_once(reported_line_, std::string(error.what()) + "; gaze is lost until the next good line");
+    lose(true);
   }
-  report_once(reported_line_,
-              config_.path + ": " + std::get<std::string>(parsed) + "; gaze is lost until the next good line");
-  lose(true);
 }
 
 void SocketGaze::lose(bool connected) {
   const std::lock_guard lock(mutex_);
-  last_.valid = false;
+  last_.reset();
   connected_ = connected;
 }
 

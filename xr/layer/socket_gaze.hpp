@@ -32,16 +32,17 @@ class SocketGaze : public GazeSource {
  private:
   void run(const std::stop_token& stop);
   void converse(int socket, const std::stop_token& stop);
-  void take(std::string_view line);
+  void take(const std::string& line);
   void lose(bool connected);
   void report_once(bool& reported, const std::string& text) const;
   // False when it is time to stop.
   [[nodiscard]] bool wait_for(int file, int milliseconds, const std::stop_token& stop) const;
 
   Config config_;
-  mutable std::mutex mutex_;  // of the two below
-  GazeRow last_;              // its time in CLOCK_MONOTONIC's seconds
+  mutable std::mutex mutex_;                // of the two below
+  std::optional<tracking::TraceRow> last_;  // its time in CLOCK_MONOTONIC's seconds; none: lost
   bool connected_ = false;
+  std::string header_;                                        // of the connection
   bool reported_connection_ = false, reported_line_ = false;  // the thread's own
   int wake_ = -1;                                             // an eventfd that ends every wait
   std::jthread thread_;

@@ -1,0 +1,102 @@
+// vergence vr: live in the headset, through OpenXR.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/mode_option.hpp"
+#include "app/option_values.hpp"
+#include "app/output_place.hpp"
+#include "app/vr_options.hpp"
+#include "app/vr_report.hpp"
+#include "app/vr_run.hpp"
+#include "tracking/input_error.hpp"
+
+namespace app {
+namespace {
+
+using tracking::InputError;
+
+constexpr int kMostSamples = 1024, kMostFrames = 100'000'000;
+
+void check_options(const VrOptions& options) {
+  check_picture_options(options.picture);
+  check_range("--samples", options.samples, 1, kMostSamples, "");
+  if (options.frames) {
+    check_range("--frames", *options.frames, 1, kMostFrames, "");
+  }
+  if (!options.record.empty()) {
+    check_place(options.record);
+  }
+  if (!options.replay.empty() && !options.scene.compare.empty()) {
+    throw InputError("--replay", "", "holds one pair's eyes; it cannot be given together with --compare");
+  }
+  if (!options.size.empty()) {
+    (void)size_of("--size", options.size);
+  }
+  if (!options.screenshot.empty()) {
+    if (std::filesystem::path(options.screenshot).extension() != ".png") {
+      throw InputError("--screenshot", "", "'" + options.screenshot + "' must end in .png");
+    }
+    check_place(options.screenshot);
+  }
+}
+
+int run(const VrOptions& options) {
+  check_options(options);
+  const VrReport report = run_vr(options);
+  std::cout << (options.json ? to_json(report) : to_table(report)) << std::flush;
+  if (!std::cout) {
+    throw std::runtime_error("standard output: cannot be written");
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_vr_command(CLI::App& program) {
+  auto options = std::make_shared<VrOptions>();
+  CLI::App* command = program.add_subcommand("vr", "A scene through spectacles, live in the headset (OpenXR)");
+  command->footer(
+      "Example:\n"
+      "  vergence vr --wearer assets/wearers/presbyopia.json \\\n"
+      "    --spectacles assets/spectacles/presbyopia_bspline_sphere.json --headset assets/headsets/example.json\n"
+      "An OpenXR runtime must run (SteamVR, WiVRn, Monado); XR_RUNTIME_JSON names another than the active one. Ctrl-C\n"
+      "ends it. Not a medical device.");
+  add_wearing_options(*command, options->scene,
+                      {.scene = "FILE.gltf or FILE.glb [the built-in reading room]",
+                       .spectacles = "Spectacles file, or none",
+                       .compare = "A second pair: A left, B right of a divider in each eye"});
+  command->add_option("--pose", options->scene.pose,
+                      "X,Y,Z,YAW,PITCH (m, deg) of the scene where the room's centre stands, its height above the\n"
+                      "floor only for a space without one [below the scene's camera]");
+  command->add_option("--mode", options->mode, "What the picture shows")
+      ->check(CLI::IsMember(mode_names()))
+      ->capture_default_str();
+  add_picture_options(*command, options->picture);
+  command->add_option("--samples", options->samples, "Rays a pixel and frame (dof)")->capture_default_str();
+  command->add_option("--range", options->range, "LO,HI of a map, D or arcmin [by map]");
+  command->add_option("--colormap", options->colour_map, "hsv (as in the paper) or viridis (perceptual)")
+      ->check(CLI::IsMember({"hsv", "viridis"}))
+      ->capture_default_str();
+  command->add_option("--size", options->size, "WxH in pixels of each eye's image [as the runtime recommends]");
+  command
+      ->add_option("--space", options->space,
+                   "The runtime's space that the scene stands in: auto is local_floor, else stage, else local")
+      ->check(CLI::IsMember({"auto", "local_floor", "stage", "local"}))
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "End after this many pictures [until the session ends]");
+  auto* record = command->add_option("--record", options->record,
+                                     "FILE.csv of poses, gaze, pupils and accommodation, a line a picture, and\n"
+                                     "FILE.csv.json of views, rung, pair and events");
+  command
+      ->add_option("--replay", options->replay,
+                   "FILE.csv to draw from, a line a picture: a recording gives the same pictures on the same device")
+      ->excludes(record);
+  command->add_option("--screenshot", options->screenshot, "FILE.png of the last picture, left eye | right eye");
+  command->add_option("--device", options->device, "Checked only: the headset says which GPU it hangs on");
+  command->add_flag("--json", options->json, "Print the numbers as JSON");
+  return [options] { return run(*options); };
+}
+
+}  // namespace app

@@ -1,0 +1,28 @@
+// What `vergence vr` is asked to do.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/scene_options.hpp"
+#include "xr/spaces.hpp"
+
+namespace app {
+
+struct VrOptions {
+  SceneOptions scene;
+  PictureOptions picture;
+  std::string mode = "adof";
+  int samples = 4;  // dof, in every frame
+  std::string range;
+  std::string colour_map = "hsv";
+  std::string size;  // of each eye's image; empty: as the runtime recommends
+  std::string space = "auto";
+  std::string device;
+  std::string screenshot;
+  std::string record, replay;  // FILE.csv
+  std::optional<int> frames;
+  bool json = false;
+};
+
+}  // namespace app

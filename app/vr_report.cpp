@@ -1,0 +1,118 @@
+#include "app/vr_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace app {
+namespace {
+
+using Times = std::vector<std::pair<std::string, TimeRing>>;
+
+TimeRing& find_or_add(Times& times, const std::string& name) {
+  const auto found = std::ranges::find(times, name, &Times::value_type::first);
+  return found != times.end() ? found->second : times.emplace_back(name, TimeRing{}).second;
+}
+
+nlohmann::ordered_json json_of(const Times& times) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, ring] : times) {
+    json[name] = {{"median", ring.quantile(0.5)}, {"p99", ring.quantile(0.99)}};
+  }
+  return json;
+}
+
+nlohmann::ordered_json json_of(const std::vector<lenses::Finding>& findings) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const lenses::Finding& finding : findings) {
+    nlohmann::ordered_json one{{"code", finding.code}};
+    if (finding.side) {
+      one["side"] = *finding.side == lenses::Side::right ? "right" : "left";
+    }
+    one["value"] = finding.value;
+    one["unit"] = finding.unit;
+    one["message"] = finding.message;
+    json.push_back(one);
+  }
+  return json;
+}
+
+void print(std::ostream& out, const char* where, const Times& times) {
+  for (const auto& [name, ring] : times) {
+    out << std::left << std::setw(8) << where << std::setw(14) << name << std::right << std::setw(10)
+        << ring.quantile(0.5) << std::setw(10) << ring.quantile(0.99) << '\n';
+  }
+}
+
+std::string sources_text(const VrReport& report) {
+  std::string text;
+  for (const auto& [source, frames] : report.gaze_sources) {
+    text += (text.empty() ? "" : ", ") + source + " (" + std::to_string(frames) + " frames)";
+  }
+  return text;
+}
+
+}  // namespace
+
+void TimeRing::add(double milliseconds) {
+  if (times_.size() < kMost) {
+    times_.push_back(milliseconds);
+  } else {
+    times_[next_] = milliseconds;
+  }
+  next_ = (next_ + 1) % kMost;
+}
+
+double TimeRing::quantile(double fraction) const {
+  if (times_.empty()) {
+    return 0.0;
+  }
+  std::vector<double> sorted = times_;
+  const auto at =
+      sorted.begin() + static_cast<std::ptrdiff_t>(std::lround(fraction * static_cast<double>(sorted.size() - 1)));
+  std::ranges::nth_element(sorted, at);
+  return *at;
+}
+
+TimeRing& VrReport::host_part(const std::string& name) {
+  return find_or_add(host, name);
+}
+
+TimeRing& VrReport::device_stage(const std::string& name) {
+  return find_or_add(device_stages, name);
+}
+
+std::string to_table(const VrReport& report) {
+  std::ostringstream out;
+  out << "runtime  " << report.runtime << "\nheadset  " << report.headset << "\ndevice   " << report.device
+      << "\nspace    " << report.space << "\nimages   " << report.width << 'x' << report.height << " each, and "
+      << report.guard_px << " pixels around them\ngaze     " << sources_text(report) << "\nframes   " << report.shown
+      << " shown, " << report.skipped << " without a picture\n";
+  for (const lenses::Finding& finding : report.findings) {
+    out << "note     " << finding.message << '\n';
+  }
+  out << std::fixed << std::setprecision(3) << "\n                      ms median      p99\n";
+  print(out, "host", report.host);
+  print(out, "device", report.device_stages);
+  return out.str();
+}
+
+std::string to_json(const VrReport& report) {
+  const nlohmann::ordered_json json{{"runtime", report.runtime},
+                                    {"headset", report.headset},
+                                    {"device", report.device},
+                                    {"space", report.space},
+                                    {"size", std::to_string(report.width) + "x" + std::to_string(report.height)},
+                                    {"guard_px", report.guard_px},
+                                    {"gaze_frames", report.gaze_sources},
+                                    {"findings", json_of(report.findings)},
+                                    {"frames_shown", report.shown},
+                                    {"frames_skipped", report.skipped},
+                                    {"host_ms", json_of(report.host)},
+                                    {"stages_ms", json_of(report.device_stages)}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace app

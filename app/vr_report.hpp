@@ -1,0 +1,45 @@
+// What a session in the headset was, in numbers.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lenses/viewer_findings.hpp"
+
+namespace app {
+
+// Times of one kind, ms; the last kMost of them are kept, so that a long session needs no more memory than a short one.
+class TimeRing {
+ public:
+  static constexpr std::size_t kMost = 10000;
+
+  void add(double milliseconds);
+  [[nodiscard]] bool empty() const { return times_.empty(); }
+  // fraction 0.5: the median. Of nothing: 0.
+  [[nodiscard]] double quantile(double fraction) const;
+
+ private:
+  std::vector<double> times_;
+  std::size_t next_ = 0;
+};
+
+struct VrReport {
+  std::string runtime, headset, device, space;
+  int width = 0, height = 0;  // of each eye's image
+  int guard_px = 0;
+  std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
+  std::vector<lenses::Finding> findings;               // what the person inside should know
+  int shown = 0, skipped = 0;                          // frames with a picture and without
+  std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order
+  std::vector<std::pair<std::string, TimeRing>> device_stages;
+
+  [[nodiscard]] TimeRing& host_part(const std::string& name);
+  [[nodiscard]] TimeRing& device_stage(const std::string& name);
+};
+
+[[nodiscard]] std::string to_table(const VrReport& report);
+[[nodiscard]] std::string to_json(const VrReport& report);
+
+}  // namespace app

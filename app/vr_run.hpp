@@ -1,0 +1,13 @@
+// The session in the headset from beginning to end.
+#pragma once
+
+#include "app/vr_options.hpp"
+#include "app/vr_report.hpp"
+
+namespace app {
+
+// Throws tracking::InputError for what files and options hold, before the headset is asked for anything; xr::Error and
+// render::vk::DeviceError for what fails then.
+[[nodiscard]] VrReport run_vr(const VrOptions& options);
+
+}  // namespace app

@@ -1,0 +1,170 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Approximate defocus where a blur reaches across depth. What lies in front of the pixel's own point covers it as far as
+// each of its points, spread evenly over its own ellipse, adds up to; the rest shows the mean over the pixel's ellipse of
+// what lies beside and behind. So nothing sharp bleeds, what a point sends out stays what it is, and where a near edge
+// uncovers what no ray has seen, its neighbours stand in.
+#include "render/shaders/gather.glsl"
+#include "render/shaders/blurred_out.glsl"
+
+layout(binding = 2) uniform usamplerBuffer reaches;
+layout(std430, binding = 3) readonly buffer List { uint list[]; };
+layout(binding = 4) uniform usamplerBuffer nearest_squares;
+
+// A pixel (level 0), or what lies nearest in a square of 2 pixels (level 1).
+Square square_at(ivec2 q, int level, int base) {
+  q = clamp(q, ivec2(0), (frame.size.xy - 1) >> level);
+  if (level == 0) {
+    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
+    return Square(tap.radiance, tap.depth < 0.0 ? 0.0 : 1.0, tap.ellipse, nearness(tap.depth));
+  }
+  return unpack_square(texelFetch(nearest_squares, q.y * blur_level_width(tile_count(), 1) + q.x));
+}
+
+// How far in front of `here` something stands, 0 or 1 and between: by the pixels that the pupil's half sets the two
+// apart. A surface may slope by a quarter of that a pixel.
+float in_front(float nearer, float here, vec2 offset) {
+  return clamp(frame.limits.w * (nearer - here) - kBlurParallax - 0.25 * length(offset), 0.0, 1.0);
+}
+
+// The part of a point's light that falls on a pixel at `offset`.
+float share(vec3 s, vec2 offset) {
+  float b = max(s.x + s.z - major(s), 0.0);
+  float widen = max(0.5 - b, 0.0);
+  vec3 wide = s + vec3(widen, 0.0, widen);
+  float det = max(wide.x * wide.z - wide.y * wide.y, 1e-6);
+  vec2 inner = vec2(wide.z * offset.x - wide.y * offset.y, wide.x * offset.y - wide.y * offset.x) / det;
+  float radius = length(inner);
+  if (kGaussian != 0u) {
+    return exp(-2.0 * radius * radius) * 2.0 / (kPi * det);
+  }
+  float distance = length(offset);
+  float inside = distance / max(radius, 1e-6) - distance + 0.5;  // px within the ellipse's edge
+  return clamp(distance > 0.0 ? inside : 1.0, 0.0, 1.0) / (kPi * (det + 1.0 / 12.0));
+}
+
+// The mean over the pixel's ellipse of what lies at its depth and behind. Of what lies behind the nearest counts most.
+vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
+  float here = nearness(centre.depth);
+  float minor = centre.ellipse.x + centre.ellipse.z - reach;
+  int level = minor >= kWideBlur && kRate > 1 ? 1 : 0;
+  float side = float(1 << level);
+  float step = max(1.0, floor(sqrt(kPi * reach * max(minor, 1.0) / float(kTaps)) / side));
+  float cell = side * step;
+  vec3 s = shrunk(centre.ellipse, (side * side - 1.0 + cell * cell) / 12.0) / cell;
+  ivec2 at = p >> level;
+  vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;
+  Rows rows = rows_of(s, beside / step);
+  ivec2 range = row_range(rows);
+  vec4 own = vec4(centre.radiance, 1.0) * 1e-3;
+  vec4 behind = vec4(0.0);
+  float uncovered = 0.0;
+  for (int row = range.x; row <= range.y; ++row) {
+    vec2 span = row_span(rows, row);
+    ivec2 cells = cells_between(span.x, span.y);
+    for (int k = cells.x; k <= cells.y; ++k) {
+      ivec2 q = int(step) * ivec2(k, row);
+      vec2 offset = (vec2(q) - beside) * side;
+      Square tap = square_at(at + q, level, base);
+      float whole = cell_weight(rows, span, row, k) * tap.coverage;
+      float w = whole * (1.0 - in_front(tap.nearness, here, offset));
+      // Where something stands in front, what lies half as far stands in.
+      Square between = square_at(at + ivec2(round(0.5 * vec2(q))), level, base);
+      float between_seen = between.coverage * (1.0 - in_front(between.nearness, here, 0.5 * offset));
+      own += (whole - w) * between_seen * vec4(between.radiance, 1.0);
+      float back = w * in_front(here, tap.nearness, offset);
+      own += (w - back) * vec4(tap.radiance, 1.0);
+      uncovered += back + (w - back) * (1.0 / max(tap.coverage, 0.25) - 1.0);  // behind a square's nearest
+      behind += back / (1.0 + kNearestFill * dot(offset, offset)) * vec4(tap.radiance, 1.0);
+    }
+  }
+  uncovered = behind.a > 0.0 ? uncovered : 0.0;
+  return (own.rgb + uncovered * behind.rgb / max(behind.a, 1e-6)) / (own.a + uncovered);
+}
+
+vec3 small_beside(Tap centre, vec3 radiance, ivec2 p, int base) {
+  float here = nearness(centre.depth);
+  vec3 mean = radiance;
+  for (int k = 0; k < 9; ++k) {
+    ivec2 o = ivec2(k % 3 - 1, k / 3 - 1);
+    Square tap = square_at(p + o, 0, base);
+    float w = tap.coverage * small_weight(centre.ellipse, o) * (1.0 - in_front(tap.nearness, here, vec2(o)));
+    mean += w * (tap.radiance - radiance);
+  }
+  return mean;
+}
+
+// Beside a near edge a pixel's several rays have met both sides. Where the near side is blurred, the far side's light is
+// taken from a pixel farther from the edge.
+vec3 clean_radiance(Tap centre, ivec2 p, int base) {
+  float here = nearness(centre.depth);
+  vec2 toward = vec2(0.0);
+  float blurred = 0.0;
+  for (int k = 0; k < 9; ++k) {
+    ivec2 o = ivec2(k % 3 - 1, k / 3 - 1);
+    Square tap = square_at(p + o, 0, base);
+    float w = tap.coverage * in_front(tap.nearness, here, vec2(o));
+    toward += w * vec2(o);
+    blurred = max(blurred, w * clamp(major(tap.ellipse) - 0.5, 0.0, 1.0));
+  }
+  if (blurred == 0.0 || toward == vec2(0.0)) {
+    return centre.radiance;
+  }
+  ivec2 away = ivec2(round(-2.0 * toward / max(abs(toward.x), abs(toward.y))));
+  Square tap = square_at(p + away, 0, base);
+  float w = tap.coverage * (1.0 - in_front(tap.nearness, here, vec2(away)));
+  return mix(centre.radiance, tap.radiance, w * blurred);
+}
+
+// Radiance times coverage, coverage: row by row over all from where light may come.
+vec4 front(float here, float reach, ivec2 p, int base) {
+  int level = reach >= kWideBlur && kRate > 1 ? 1 : 0;
+  float side = float(1 << level);
+  float radius = (reach + 1.0) / side;
+  float step = max(1.0, ceil(sqrt(kPi / float(2 * kTaps)) * radius));
+  float area = side * side * step * step;  // px of a tap
+  ivec2 at = p >> level;
+  vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;
+  int rows = int(radius / step);
+  vec4 sum = vec4(0.0);
+  for (int row = -rows; row <= rows; ++row) {
+    float y = float(row) * step;
+    int columns = int(sqrt(max(radius * radius - y * y, 0.0)) / step);
+    for (int column = -columns; column <= columns; ++column) {
+      vec2 offset = vec2(float(column) * step, y);
+      Square tap = square_at(at + ivec2(offset), level, base);
+      offset = (offset - beside) * side;
+      float w = tap.coverage * in_front(tap.nearness, here, offset) * share(tap.ellipse, offset) * area;
+      sum += w * vec4(tap.radiance, 1.0);
+    }
+  }
+  return sum.a > 1.0 ? sum / sum.a : sum;
+}
+
+void main() {
+  ivec2 size = frame.size.xy;
+  int base = frame.view.x * size.x * size.y;
+  for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
+    int tile = int(list[kListFirstAt + i]);
+    ivec2 p = kBlurTile * ivec2(tile % tile_count().x, tile / tile_count().x) + ivec2(gl_LocalInvocationID.xy);
+    if (p.x >= size.x || p.y >= size.y) {
+      continue;
+    }
+    Tap centre = tap_at(base + p.y * size.x + p.x);
+    vec3 mean = centre.radiance;
+    if (centre.depth >= 0.0) {
+      float reach = major(centre.ellipse);
+      float reach_of_front = uintBitsToFloat(texelFetch(reaches, tile).x);
+      vec4 before = vec4(0.0);
+      if (reach_of_front > 0.0) {
+        before = front(nearness(centre.depth), reach_of_front, p, base);
+        mean = clean_radiance(centre, p, base);
+      }
+      if (reach >= frame.limits.x) {
+        mean = reach < 1.0 ? small_beside(centre, mean, p, base) : beside_and_behind(centre, reach, p, base);
+      }
+      mean = before.rgb + (1.0 - before.a) * mean;
+    }
+    leave_blurred(base + p.y * size.x + p.x, mean);
+  }
+}

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <thread>
 
 #include "render/frame_blur.hpp"
 #include "render/gpu_tracer.hpp"
@@ -82,6 +83,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
     worn.push_back(lenses.lens[view.lens]);
   }
   variant_.surface_kinds = surface_kinds(worn);
+  variant_.view_traits = view_traits(views, lenses);
   half_pupil_px_ = half_pupils_px(views, config.width);
   variant_.scene_features = scene.features;
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
@@ -116,6 +118,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   if (traversal == Traversal::ray_query) {
     accelerated_ = &scene.acceleration(device).top;
   }
+  data_.view.z = device.limits().on_processor ? static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) : 1;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
   data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
   // A pinhole picture is the defocused one with nothing left to blur.

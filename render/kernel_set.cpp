@@ -158,7 +158,8 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     const bool keeps = variant.keep_transfer && !variant.sampled;
     key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
     key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
-    count = 8;
+    key[9] = variant.view_traits;
+    count = 10;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
@@ -166,7 +167,6 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   }
   if (recipe.constants == Constants::aim || recipe.constants == Constants::samples) {
     key[8] = (recipe.constants == Constants::aim ? variant.sampled : variant.hits_known) ? 1U : 0U;
-    count = 9;
   }
   if (recipe.constants == Constants::samples) {
     key[0] = key[5] = key[6] = 0;  // the lens is behind them

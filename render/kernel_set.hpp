@@ -39,6 +39,7 @@ enum class Stage : std::uint32_t {
 struct TraceVariant {
   std::uint32_t surface_kinds = 0xffffffffU;   // surface_kinds() of gpu_tracer.hpp
   std::uint32_t scene_features = 0xffffffffU;  // SceneBuffers::features
+  std::uint32_t view_traits = 0xffffffffU;     // view_traits() of view_setup.hpp
   bool wavefront = true;                       // false: radiance only
   bool keep_wavefront = false;
   bool bare = false;               // one light, no shadow rays
@@ -68,7 +69,7 @@ class KernelSet {
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
-  using Key = std::array<std::uint32_t, 10>;  // the constants by id, at the end the stage
+  using Key = std::array<std::uint32_t, 11>;  // the constants by id, at the end the stage
 
   const vk::Kernel& get(Stage stage, Key key, std::size_t constants);
 

@@ -181,8 +181,11 @@ struct SceneBuffers::Parts {
     if (has_more(packed.features)) append_more(scene, bvh.four, shading);
     texels = placed.pack();
     const Environment& e = scene.environment;
-    environment = {glm::vec4(e.sky_zenith, 0.0F), glm::vec4(e.sky_horizon, 0.0F), glm::vec4(e.ambient, 0.0F),
-                   glm::ivec4(static_cast<int>(scene.lights.size()), more, 0, 0)};
+    environment = {glm::vec4(e.sky_zenith, 0.0F),
+                   glm::vec4(e.sky_horizon, 0.0F),
+                   glm::vec4(e.ambient, 0.0F),
+                   glm::ivec4(0, more, 0, 0),
+                   {scene.lights.empty() ? gpu::LightData{} : light_data(scene).front()}};
   }
 };
 

@@ -36,4 +36,14 @@ gpu::ViewData make_view_data(const ViewSetup& setup, const lenses::LensModel& le
   return data;
 }
 
+std::uint32_t view_traits(const std::vector<ViewSetup>& views, const lenses::LensModel& lenses) {
+  std::uint32_t traits = 0;
+  for (const ViewSetup& view : views) {
+    traits |= 1U << static_cast<unsigned>(view.viewing);
+    traits |= lenses.lens[view.lens].mount.x == 1 ? 8U : 0U;
+    traits |= view.virtual_image ? 16U : 0U;
+  }
+  return traits;
+}
+
 }  // namespace render

@@ -25,9 +25,14 @@ VG_FUNCTION vec3 pupil_basis_h(vec3 d) {
   return flat2 > kEpsilon * kEpsilon ? vec3(-d.z, real(0), d.x) / sqrt(flat2) : vec3(real(1), real(0), real(0));
 }
 
+#define IS_VIEWING(viewing, k) ((VIEWINGS & (1u << uint(k))) != 0u && (VIEWINGS == (1u << uint(k)) || (viewing) == (k)))
+
 VG_FUNCTION mat3 eye_turn(int viewing, vec3 gaze, vec3 direction) {
-  if (viewing == kViewingFixed) {
+  if (IS_VIEWING(viewing, kViewingFixed)) {
     return mat3(real(1));
   }
-  return viewing == kViewingScanning ? listing_rotation(direction) : listing_rotation(gaze);
+  if (IS_VIEWING(viewing, kViewingScanning)) {
+    return listing_rotation(direction);
+  }
+  return listing_rotation(gaze);
 }

@@ -11,6 +11,7 @@
 // that lenses without them pay nothing.
 // MAY_CROSS: front and back of some lens may cross. HURRIED: a search that does not settle at once is given up as
 // kStatusUnsettled, so that the code for it is not compiled; such rays are few and traced again.
+// VIEWINGS: bit k is set if some eye views in the way k (trace_record.h). MAY_SIT_ON_EYE: some lens turns with the eye.
 // NEWTON_STEPS: a ray goes on from a surface after so many steps of the search for it, wherever they have led; 0: as
 // many as it takes.
 
@@ -29,6 +30,8 @@
 #define MAY_CROSS true
 #define HURRIED false
 #define NEWTON_STEPS 0
+#define VIEWINGS 7u
+#define MAY_SIT_ON_EYE true
 
 #else
 
@@ -50,6 +53,10 @@ const float kEpsilon = 1.1920929e-7;
 #endif
 #ifndef HURRIED
 #define HURRIED false
+#endif
+#ifndef VIEWINGS
+#define VIEWINGS 7u
+#define MAY_SIT_ON_EYE true
 #endif
 #ifndef NEWTON_STEPS
 #define NEWTON_STEPS 0

@@ -42,10 +42,12 @@ VG_FUNCTION SightLine bare_sight_line(EyeData eye, mat3 turn, vec3 direction, ve
   return line;
 }
 
+#define IS_ON_EYE(lens) (MAY_SIT_ON_EYE && (lens).mount.x == 1)
+
 // What stands in for the eye's axes in front of the lens: a lens attached to the eye is traced in the turned eye's frame.
-VG_FUNCTION mat3 lens_frame(LensData lens, SightLine line) { return lens.mount.x == 1 ? line.turn : mat3(real(1)); }
+VG_FUNCTION mat3 lens_frame(LensData lens, SightLine line) { return IS_ON_EYE(lens) ? line.turn : mat3(real(1)); }
 VG_FUNCTION vec3 lens_shift(LensData lens, SightLine line) {
-  return lens.mount.x == 1 ? line.pupil : vec3(real(0), real(0), real(0));
+  return IS_ON_EYE(lens) ? line.pupil : vec3(real(0), real(0), real(0));
 }
 
 VG_FUNCTION SightLine beyond_lens(LensData lens, SightLine line, LensPath path) {
@@ -90,7 +92,7 @@ VG_FUNCTION RayTransfer sight_line_transfer(LensData lens, SightLine line) {
   if (!LENS_USED || lens.glass.w == real(0)) {
     return free_flight(real(0));
   }
-  mat3 frame = lens.mount.x == 1 ? transpose(line.turn) : mat3(real(1));
+  mat3 frame = IS_ON_EYE(lens) ? transpose(line.turn) : mat3(real(1));
   return lens_transfer(lens, line.path, to_lens_direction(lens, frame * line.e_h),
                        to_lens_direction(lens, frame * line.e_v));
 }

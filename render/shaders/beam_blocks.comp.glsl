@@ -7,6 +7,7 @@
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
 #include "render/shaders/beam.glsl"
+#include "render/shaders/group.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 10) writeonly buffer Blocks { uint blocks[]; };
@@ -16,7 +17,7 @@ layout(binding = 12) uniform usamplerBuffer keys;
 
 void main() {
   ivec2 size = frame.size.xy;
-  ivec2 first = kBeamBlock * ivec2(gl_GlobalInvocationID.xy);
+  ivec2 first = kBeamBlock * pixel_in_picture();
   if (first.x >= size.x || first.y >= size.y) {
     return;
   }

@@ -54,7 +54,7 @@ vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
 }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   ivec2 size = frame.size.xy;
   if (p.x >= size.x || p.y >= size.y) {
     return;

@@ -8,9 +8,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform usamplerBuffer radiance;
 layout(std430, binding = 1) writeonly buffer Display { uint display[]; };
 layout(push_constant) uniform Frame { FrameData frame; };
+#include "render/shaders/group.glsl"
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }

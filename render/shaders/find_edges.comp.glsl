@@ -12,10 +12,11 @@ layout(binding = 2) uniform usamplerBuffer blocks;
 layout(std430, binding = 3) buffer Edges { uint edges[]; };
 layout(std430, binding = 4) buffer Doubtful { uint doubtful[]; };
 layout(push_constant) uniform Frame { FrameData frame; };
+#include "render/shaders/group.glsl"
 #include "render/shaders/edge_test.glsl"
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   ivec2 size = frame.size.xy;
   if (p.x >= size.x || p.y >= size.y) {
     return;

@@ -6,6 +6,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/group.glsl"
 #include "render/shaders/chief_out.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -32,11 +33,28 @@ SightLine found_line(ViewData view, mat3 turn, vec3 direction, vec4 origin, vec4
   return line;
 }
 
-PixelRay found_ray(ViewData view, vec3 direction, int at) {
-  vec4 origin = texelFetch(ray_origins, at);
-  vec4 towards = texelFetch(ray_directions, at);
+// What other kernels know of a pixel's ray.
+struct KnownRay {
+  vec4 origin;
+  vec4 towards;
+  bool met;
+  Hit hit;
+};
+
+KnownRay known_ray(int at) {
+  KnownRay known;
+  known.origin = texelFetch(ray_origins, at);
+  known.towards = texelFetch(ray_directions, at);
+  uint named = kFindHits == 0u ? texelFetch(found_hits, at).x : kNoTriangle;
+  known.met = named != kNoTriangle;
+  known.hit = plane_hit(known.met ? named : 0u, known.origin.xyz, known.towards.xyz).hit;
+  return known;
+}
+
+PixelRay found_ray(ViewData view, vec3 direction, KnownRay known, int at) {
+  vec4 towards = known.towards;
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);
-  PixelRay ray = unseen_ray(found_line(view, turn, direction, origin, towards));
+  PixelRay ray = unseen_ray(found_line(view, turn, direction, known.origin, towards));
   int beside = LENS_USED && view.lens.glass.w != 0.0 ? kStatusMissBack : kStatusOk;
   ray.status = towards.w > 0.0 ? kStatusOk : towards.w < 0.0 ? int(-towards.w) : beside;
   if (ray.status != kStatusOk) {
@@ -47,23 +65,20 @@ PixelRay found_ray(ViewData view, vec3 direction, int at) {
     ray.across = upright_axis(ray.line.e_h, ray.line.direction_object);
   }
   if (!shows_rim(ray.status)) {
-    bool known = kFindHits == 0u;
-    uint named = known ? texelFetch(found_hits, at).x : kNoTriangle;
-    bool met = named != kNoTriangle;
-    Hit hit = plane_hit(met ? named : 0u, origin.xyz, towards.xyz).hit;
-    see(view, ray, SceneRay(origin.xyz, towards.xyz), known, met, hit);
+    see(view, ray, SceneRay(known.origin.xyz, towards.xyz), kFindHits == 0u, known.met, known.hit);
   }
   return ray;
 }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }
   ViewData view = views[eye];
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
+  KnownRay known = known_ray(at);  // first, so that memory answers while the lens is looked through
   vec3 direction = pixel_direction(view, vec2(p) + 0.5);
-  leave_pixel(view, found_ray(view, direction, at), at);
+  leave_pixel(view, found_ray(view, direction, known, at), at);
 }

@@ -5,6 +5,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Frame { FrameData frame; };
+#include "render/shaders/group.glsl"
 layout(constant_id = 0) const int kTaps = 0;  // about the most of a gathered blur; 0: nothing is blurred
 layout(constant_id = 1) const uint kGaussian = 0u;
 layout(constant_id = 2) const uint kEncode = 0u;  // 1: to the display's bytes, 0: to linear radiance

@@ -60,7 +60,7 @@ Beam pixel_beam(ViewData view, PixelRay ray) {
   vec2 px = step_x * vec2(dot(view.picture_x.xyz, line.e_h), dot(view.picture_x.xyz, line.e_v));
   vec2 py = step_y * vec2(dot(view.picture_y.xyz, line.e_h), dot(view.picture_y.xyz, line.e_v));
   // The scanning eye's pupil moves along with the direction.
-  float pupil = int(view.gaze.w) == kViewingScanning ? view.eye.pupil.y : 0.0;
+  float pupil = IS_VIEWING(int(view.gaze.w), kViewingScanning) ? view.eye.pupil.y : 0.0;
   mat2 x = ray.transfer.b + pupil * ray.transfer.a;
   mat2 p = ray.transfer.d + pupil * ray.transfer.c;
   vec2 x_across = x * px;

@@ -5,6 +5,7 @@
 // tests of its own; whether it holds for the ray is tested with the arithmetic of the per-ray traversal, else the pixel
 // is left out (left_out.comp.glsl), so that pictures agree.
 #include "render/shaders/scene_bindings.glsl"
+#include "render/shaders/group.glsl"
 #include "render/shaders/list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,7 +16,7 @@ layout(std430, binding = 13) buffer LeftOut { uint left_out[]; };  // pixels to 
 layout(binding = 14) uniform accelerationStructureEXT accelerated;  // primitives in leaf order
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }

@@ -7,6 +7,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/group.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 8) const uint kHitsKnown = 1u;
@@ -42,7 +43,7 @@ vec3 sample_radiance(ViewData view, int at) {
 }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_picture();
   int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;

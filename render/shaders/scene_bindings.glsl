@@ -12,6 +12,10 @@ layout(constant_id = 0) const uint kSurfaceKinds = 0xffffffffu;  // surface_kind
 layout(constant_id = 5) const uint kLensIterations = 0u;
 #define NEWTON_STEPS int(kLensIterations)
 layout(constant_id = 6) const uint kKeepTransfer = 0u;  // 1: rays leave their ray-transfer matrices, found rays take them
+layout(constant_id = 9) const uint kViewTraits = 0xffffffffu;  // view_traits() of render/view_setup.hpp
+#define VIEWINGS (kViewTraits & 7u)
+#define MAY_SIT_ON_EYE ((kViewTraits & 8u) != 0u)
+#define MAY_BE_VIRTUAL ((kViewTraits & 16u) != 0u)
 layout(constant_id = 4) const uint kBare = 0u;  // 1: the first light only, without shadow rays
 layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // what the scene has need of, kFeature... of view.h
 #define HAS(features) ((kSceneFeatures & uint(features)) != 0u)

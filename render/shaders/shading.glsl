@@ -218,7 +218,8 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
   vec3 light = environment.ambient.rgb * open;  // on a matte surface
   vec3 shine = environment.ambient.rgb * open * (brdf.diffuse + brdf.specular);
   // After the lights a smooth surface looks along the mirrored ray for the sky.
-  int light_count = kBare != 0u ? min(environment.counts.x, 1) : environment.counts.x;
+  // Nor does a number from a uniform buffer end the loop (EnvironmentData). A scene without lights has one.
+  int light_count = kBare != 0u ? 1 : textureSize(lights) / 4;
   int rays = light_count + (matte ? 0 : 1);
   for (int i = 0; i < rays; ++i) {
     bool mirrored = HAS(kFeatureShiny) && i == light_count;
@@ -229,7 +230,11 @@ Surface shade_hit(Hit hit, vec3 origin, vec3 direction, Footprint footprint) {
       towards = reflect(direction, normal);
       arriving = open * (1.0 - brdf.roughness) * brdf.specular * (sky_radiance(towards) - environment.ambient.rgb);
     } else {
-      arriving = light_at(light_data(i), lifted, towards, reach);
+      LightData light_here = environment.first_light[frame.view.w];
+      if (kBare == 0u) {
+        light_here = light_data(i);
+      }
+      arriving = light_at(light_here, lifted, towards, reach);
       arriving *= matte ? vec3(max(dot(normal, towards), 0.0)) : reflected(brdf, normal, -direction, towards);
     }
     vec3 size = abs(arriving);

@@ -6,7 +6,7 @@
 #extension GL_EXT_control_flow_attributes : require
 // The closest triangle to each of a tile's 8 x 8 rays, found for the whole tile at once: one subgroup walks the 8-wide
 // tree, each invocation testing one child against bounds that hold all rays of the tile, then one triangle of a leaf;
-// what survives is tested against every ray. After the frustum traversal of Reshetov, Soupikov and Hurley,
+// what survives is tested against the rays of each half of the tile that it may reach. After the frustum traversal of Reshetov, Soupikov and Hurley,
 // Multi-level ray tracing algorithm (2005).
 //
 // Along the tile's main axis w a ray is u = u0 + s_u w, v = v0 + s_v w, so that the bounds are eight numbers, whether
@@ -27,12 +27,18 @@ layout(binding = 3) uniform samplerBuffer bvh_triangles;
 layout(std430, binding = 4) writeonly buffer Hits { uint hits[]; };
 layout(std430, binding = 5) buffer LeftOut { uint left_out[]; };  // pixels to be traced one by one
 layout(push_constant) uniform Frame { FrameData frame; };
+#include "render/shaders/group.glsl"
 
 #include "render/shaders/triangle_hit.glsl"
 #include "render/shaders/features.h"
 
 const uint kTileSide = 8u;
 const uint kRays = kTileSide * kTileSide / kLanes;  // of one invocation
+// A triangle is tested against half a tile at a time: small ones seldom reach both. (Quarters gain as much in rays as
+// they cost in bounds.)
+const uint kParts = kRays > 1u ? 2u : 1u;
+const uint kPartRays = kRays / kParts;
+const uint kLastPart = kParts - 1u;
 const uint kStackSize = 128u;
 const uint kDone = 0xFFFFFFFEu;
 const float kFar = 1e30;
@@ -46,31 +52,38 @@ shared uvec2 stack[kStackSize];  // reference, bits of the entry
 // One instruction each on a software device, where min() and max() are three.
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
+float sum(float a, float b) { return a + b; }
+uint either(uint a, uint b) { return a | b; }
 
-// On a software device a shuffle costs less than a broadcast, and eight of them less than a reduction.
+// On a software device a shuffle costs less than a broadcast, and three of them less than a reduction.
 #define OF_LANE(x, j) subgroupShuffle(x, j)
+#define OVER_LANES(type, name, of_two, of_all)                  \
+  type name(type x) {                                           \
+    if (kLanes != 8u) {                                         \
+      return of_all(x);                                         \
+    }                                                           \
+    x = of_two(x, OF_LANE(x, gl_SubgroupInvocationID ^ 1u));    \
+    x = of_two(x, OF_LANE(x, gl_SubgroupInvocationID ^ 2u));    \
+    return of_two(x, OF_LANE(x, gl_SubgroupInvocationID ^ 4u)); \
+  }
+OVER_LANES(float, smallest, least, subgroupMin)
+OVER_LANES(float, largest, most, subgroupMax)
+OVER_LANES(float, total, sum, subgroupAdd)
+OVER_LANES(uint, all_bits, either, subgroupOr)
+vec3 smallest(vec3 x) { return vec3(smallest(x.x), smallest(x.y), smallest(x.z)); }
+vec3 largest(vec3 x) { return vec3(largest(x.x), largest(x.y), largest(x.z)); }
+vec3 total(vec3 x) { return vec3(total(x.x), total(x.y), total(x.z)); }
 
-float largest(float x) {
-  if (kLanes != 8u) {
-    return subgroupMax(x);
-  }
-  float m = OF_LANE(x, 0u);
-  [[unroll]] for (uint j = 1u; j < 8u; ++j) {
-    m = most(m, OF_LANE(x, j));
-  }
-  return m;
-}
+// Bounds of rays: s_u, s_v, u0, v0.
+struct Bounds {
+  vec4 low;
+  vec4 high;
+};
 
-uint lanes_with(bool b) {
-  if (kLanes != 8u) {
-    return subgroupBallot(b).x;
-  }
-  uint bit = b ? 1u << gl_SubgroupInvocationID : 0u;
-  uint m = OF_LANE(bit, 0u);
-  [[unroll]] for (uint j = 1u; j < 8u; ++j) {
-    m |= OF_LANE(bit, j);
-  }
-  return m;
+Bounds joined(Bounds a, Bounds b) {
+  return Bounds(vec4(least(a.low.x, b.low.x), least(a.low.y, b.low.y), least(a.low.z, b.low.z), least(a.low.w, b.low.w)),
+                vec4(most(a.high.x, b.high.x), most(a.high.y, b.high.y), most(a.high.z, b.high.z),
+                     most(a.high.w, b.high.w)));
 }
 
 // The nearest entry that still lies in front of `farthest`; kDone if there is none.
@@ -88,29 +101,58 @@ uint pop(inout int top, float farthest) {
 
 int pixel_of(uint ray) {
   uint k = gl_SubgroupInvocationID + kLanes * ray;
-  ivec2 p = ivec2(gl_WorkGroupID.xy * kTileSide + uvec2(k % kTileSide, k / kTileSide));
+  ivec2 p = ivec2(group_in_picture() * kTileSide + uvec2(k % kTileSide, k / kTileSide));
   bool outside = p.x >= frame.size.x || p.y >= frame.size.y;
   return outside ? -1 : (frame.view.x * frame.size.y + p.y) * frame.size.x + p.x;
 }
+
+// A macro, because a loop around the loop would not be unrolled, and then the rays would be looked up by an index.
+#define TEST_PART(part)                                                                                              \
+  {                                                                                                                  \
+    uint here = (survivors >> (8u * part)) & 255u;                                                                   \
+    while (here != 0u) {                                                                                             \
+      uint j = uint(findLSB(here));                                                                                  \
+      here &= here - 1u;                                                                                             \
+      vec4 plane = vec4(OF_LANE(n.x, j), OF_LANE(n.y, j), OF_LANE(n.z, j), OF_LANE(dn, j));                          \
+      vec4 weight_p = vec4(OF_LANE(p.x, j), OF_LANE(p.y, j), OF_LANE(p.z, j), OF_LANE(dp, j));                       \
+      vec4 weight_q = vec4(OF_LANE(q.x, j), OF_LANE(q.y, j), OF_LANE(q.z, j), OF_LANE(dq, j));                       \
+      [[unroll]] for (uint i = 0u; i < kPartRays; ++i) {                                                             \
+        uint r = part * kPartRays + i;                                                                               \
+        float against = plane.x * su[r] + plane.y * sv[r] + plane.z;                                                 \
+        float w = (plane.w - (plane.x * u0[r] + plane.y * v0[r])) / against;                                         \
+        float x = u0[r] + w * su[r];                                                                                 \
+        float y = v0[r] + w * sv[r];                                                                                 \
+        float k = weight_p.x * x + weight_p.y * y + weight_p.z * w + weight_p.w;                                     \
+        float l = weight_q.x * x + weight_q.y * y + weight_q.z * w + weight_q.w;                                     \
+        bool hit = k >= 0.0 && l >= 0.0 && k + l <= 1.0 && w > 0.0 && w < t[r];                                      \
+        t[r] = hit ? w : t[r];                                                                                       \
+        found[r] = hit ? first + j : found[r];                                                                       \
+      }                                                                                                              \
+    }                                                                                                                \
+  }
 
 void main() {
   uint lane = gl_SubgroupInvocationID;
   vec3 ahead = vec3(0.0);
   vec3 low = vec3(kFar);
   vec3 high = vec3(-kFar);
+  vec3 starts[kRays];
+  vec4 directions[kRays];
   [[unroll]] for (uint r = 0u; r < kRays; ++r) {
     int at = pixel_of(r);
     vec4 d = texelFetch(ray_directions, max(at, 0));
-    if (at >= 0 && d.w >= 0.0) {
-      vec3 o = texelFetch(ray_origins, at).xyz;
-      ahead += d.xyz;
-      low = vec3(least(low.x, o.x), least(low.y, o.y), least(low.z, o.z));
-      high = vec3(most(high.x, o.x), most(high.y, o.y), most(high.z, o.z));
-    }
+    vec3 o = texelFetch(ray_origins, max(at, 0)).xyz;
+    d.w = at >= 0 ? d.w : -1.0;
+    starts[r] = o;
+    directions[r] = d;
+    bool goes_on = d.w >= 0.0;
+    ahead += goes_on ? d.xyz : vec3(0.0);
+    low = vec3(goes_on && o.x < low.x ? o.x : low.x, goes_on && o.y < low.y ? o.y : low.y, goes_on && o.z < low.z ? o.z : low.z);
+    high = vec3(goes_on && o.x > high.x ? o.x : high.x, goes_on && o.y > high.y ? o.y : high.y, goes_on && o.z > high.z ? o.z : high.z);
   }
-  ahead = subgroupAdd(ahead);
-  low = subgroupMin(low);
-  high = subgroupMax(high);
+  ahead = total(ahead);
+  low = smallest(low);
+  high = largest(high);
   vec3 size = abs(ahead);
   bool along_x = size.x >= size.y && size.x >= size.z;
   bool along_y = !along_x && size.y >= size.z;
@@ -119,50 +161,47 @@ void main() {
   // No ray starts at w < 0.
   vec3 base = IN_TILE(low);
   base.z = forward > 0.0 ? base.z : IN_TILE(high).z;
-  vec3 reach = IN_TILE(max(abs(low), abs(high)));
+  vec3 reach_all = max(abs(low), abs(high));
+  vec3 reach = IN_TILE(reach_all);
 
   float su[kRays], sv[kRays], u0[kRays], v0[kRays], t[kRays];
-  float unsure[kRays];  // where the nearest cut-out triangle is met: the ray alone can tell whether it is there
   uint found[kRays];
-  vec4 least_of = vec4(kFar);   // s_u, s_v, u0, v0
-  vec4 most_of = vec4(-kFar);
+  Bounds bounds_in[kParts];
   bool sound = gl_SubgroupSize == kLanes && gl_NumSubgroups == 1u;
   bool any_ray = false;
-  [[unroll]] for (uint r = 0u; r < kRays; ++r) {
-    int at = pixel_of(r);
-    vec4 d4 = texelFetch(ray_directions, max(at, 0));
-    vec3 d = IN_TILE(d4.xyz);
-    vec3 o = IN_TILE(texelFetch(ray_origins, max(at, 0)).xyz) - base;
-    d.z *= forward;
-    o.z *= forward;
-    bool goes_on = at >= 0 && d4.w >= 0.0;
-    any_ray = any_ray || goes_on;
-    sound = sound && (!goes_on || d.z > kForward);
-    float scale = 1.0 / (goes_on ? d.z : 1.0);
-    su[r] = d.x * scale;
-    sv[r] = d.y * scale;
-    u0[r] = o.x - su[r] * o.z;
-    v0[r] = o.y - sv[r] * o.z;
-    t[r] = goes_on ? kFar : -kFar;
-    unsure[r] = kFar;
-    found[r] = kNoTriangle;
-    least_of.x = goes_on && su[r] < least_of.x ? su[r] : least_of.x;
-    least_of.y = goes_on && sv[r] < least_of.y ? sv[r] : least_of.y;
-    least_of.z = goes_on && u0[r] < least_of.z ? u0[r] : least_of.z;
-    least_of.w = goes_on && v0[r] < least_of.w ? v0[r] : least_of.w;
-    most_of.x = goes_on && su[r] > most_of.x ? su[r] : most_of.x;
-    most_of.y = goes_on && sv[r] > most_of.y ? sv[r] : most_of.y;
-    most_of.z = goes_on && u0[r] > most_of.z ? u0[r] : most_of.z;
-    most_of.w = goes_on && v0[r] > most_of.w ? v0[r] : most_of.w;
+  [[unroll]] for (uint part = 0u; part < kParts; ++part) {
+    Bounds bounds = Bounds(vec4(kFar), vec4(-kFar));
+    [[unroll]] for (uint i = 0u; i < kPartRays; ++i) {
+      uint r = part * kPartRays + i;
+      vec3 d = IN_TILE(directions[r].xyz);
+      vec3 o = IN_TILE(starts[r]) - base;
+      d.z *= forward;
+      o.z *= forward;
+      bool goes_on = directions[r].w >= 0.0;
+      any_ray = any_ray || goes_on;
+      sound = sound && (!goes_on || d.z > kForward);
+      float scale = 1.0 / (goes_on ? d.z : 1.0);
+      su[r] = d.x * scale;
+      sv[r] = d.y * scale;
+      u0[r] = o.x - su[r] * o.z;
+      v0[r] = o.y - sv[r] * o.z;
+      t[r] = goes_on ? kFar : -kFar;
+      found[r] = kNoTriangle;
+      vec4 form = vec4(su[r], sv[r], u0[r], v0[r]);
+      bounds = joined(bounds, Bounds(goes_on ? form : vec4(kFar), goes_on ? form : vec4(-kFar)));
+    }
+    bounds_in[part] = Bounds(vec4(smallest(bounds.low.xyz), smallest(bounds.low.w)),
+                             vec4(largest(bounds.high.xyz), largest(bounds.high.w)));
   }
-  uint flags = subgroupOr((sound ? 0u : 1u) | (any_ray ? 2u : 0u));
+  uint flags = all_bits((sound ? 0u : 1u) | (any_ray ? 2u : 0u));
   sound = (flags & 1u) == 0u;
-  least_of = subgroupMin(least_of);
-  most_of = subgroupMax(most_of);
-  vec4 slack = kSlack * vec4(1.0 + most(abs(least_of.x), abs(most_of.x)), 1.0 + most(abs(least_of.y), abs(most_of.y)),
+  Bounds all = joined(bounds_in[0], bounds_in[kLastPart]);
+  vec4 slack = kSlack * vec4(1.0 + most(abs(all.low.x), abs(all.high.x)), 1.0 + most(abs(all.low.y), abs(all.high.y)),
                              reach.x + reach.z + 1e-3, reach.y + reach.z + 1e-3);
-  least_of -= slack;
-  most_of += slack;
+  all = Bounds(all.low - slack, all.high + slack);
+  [[unroll]] for (uint part = 0u; part < kParts; ++part) {
+    bounds_in[part] = Bounds(bounds_in[part].low - slack, bounds_in[part].high + slack);
+  }
 
   float farthest = kFar;  // of the hits that the tile has; kFar while a ray has none
   uint current = flags == 2u ? 0u : kDone;
@@ -174,23 +213,27 @@ void main() {
     vec3 a = vec3(0.0);
     vec3 e1 = vec3(0.0);
     vec3 e2 = vec3(0.0);
-    uint triangle_flags = 0u;
+    vec3 n = vec3(0.0);
     do {
       while (current < kBvhLeafBit) {
         int texel = int(current * kBvhWideNodeTexels + (lane & 7u));
         uvec4 low_q = texelFetch(wide_nodes, texel);
-        vec3 box_low = IN_TILE(uintBitsToFloat(low_q.xyz)) - base;
-        vec3 box_high = IN_TILE(uintBitsToFloat(texelFetch(wide_nodes, texel + int(kBvhWide)).xyz)) - base;
+        uvec4 high_q = texelFetch(wide_nodes, texel + int(kBvhWide));
+        vec3 box_low = uintBitsToFloat(low_q.xyz);
+        vec3 box_high = uintBitsToFloat(high_q.xyz);
+        // Fetches stay out of IN_TILE, which would repeat them.
+        box_low = IN_TILE(box_low) - base;
+        box_high = IN_TILE(box_high) - base;
         float near = forward > 0.0 ? box_low.z : -box_high.z;
         float far = forward > 0.0 ? box_high.z : -box_low.z;
         float margin = kSlack * (reach.z + most(abs(near), abs(far)));
         near = most(near - margin, 0.0);
         far += margin;
         bool hit = lane < kBvhWide && far >= near && near < farthest &&
-                   box_high.x - least(least_of.x * near, least_of.x * far) >= least_of.z &&
-                   box_low.x - most(most_of.x * near, most_of.x * far) <= most_of.z &&
-                   box_high.y - least(least_of.y * near, least_of.y * far) >= least_of.w &&
-                   box_low.y - most(most_of.y * near, most_of.y * far) <= most_of.w;
+                   box_high.x - least(all.low.x * near, all.low.x * far) >= all.low.z &&
+                   box_low.x - most(all.high.x * near, all.high.x * far) <= all.high.z &&
+                   box_high.y - least(all.low.y * near, all.low.y * far) >= all.low.w &&
+                   box_low.y - most(all.high.y * near, all.high.y * far) <= all.high.w;
         // The farthest lies deepest on the stack.
         float key = hit ? near : -1.0;
         int place = 0;
@@ -211,11 +254,12 @@ void main() {
       uint count = current == kDone ? 0u : current & kBvhLeafCountMask;
       first = current == kDone ? 0u : (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
       int texel = int(kBvhTriangleTexels * (first + (lane < count ? lane : 0u)));
-      a = IN_TILE(texelFetch(bvh_triangles, texel).xyz) - base;
-      e1 = IN_TILE(texelFetch(bvh_triangles, texel + 1).xyz);
+      vec3 first_q = texelFetch(bvh_triangles, texel).xyz;
+      vec3 second_q = texelFetch(bvh_triangles, texel + 1).xyz;
       vec4 last = texelFetch(bvh_triangles, texel + 2);
+      a = IN_TILE(first_q) - base;
+      e1 = IN_TILE(second_q);
       e2 = IN_TILE(last.xyz);
-      triangle_flags = floatBitsToUint(last.w);
       a.z *= forward;
       e1.z *= forward;
       e2.z *= forward;
@@ -224,50 +268,39 @@ void main() {
       float near = least(least(a.z, b.z), c.z);
       float far = most(most(a.z, b.z), c.z);
       float margin = kSlack * (reach.z + most(abs(near), abs(far)));
-      bool kept = lane < count && near - margin < farthest && far + margin >= 0.0 &&
-                  most(most(a.x - least_of.x * a.z, b.x - least_of.x * b.z), c.x - least_of.x * c.z) >= least_of.z &&
-                  least(least(a.x - most_of.x * a.z, b.x - most_of.x * b.z), c.x - most_of.x * c.z) <= most_of.z &&
-                  most(most(a.y - least_of.y * a.z, b.y - least_of.y * b.z), c.y - least_of.y * c.z) >= least_of.w &&
-                  least(least(a.y - most_of.y * a.z, b.y - most_of.y * b.z), c.y - most_of.y * c.z) <= most_of.w;
-      survivors = lanes_with(kept);
+      near -= margin;
+      bool kept = lane < count && near < farthest && far + margin >= 0.0;
+      n = cross(e1, e2);
+      if (HAS(kFeatureCull)) {
+        // Its back to every ray; a mirrored tile turns faces round.
+        float turned = (floatBitsToUint(last.w) & kBvhCulled) != 0u ? forward : 0.0;
+        vec3 m = n * turned;
+        float least_against = least(m.x * all.low.x, m.x * all.high.x) + least(m.y * all.low.y, m.y * all.high.y) + m.z;
+        kept = kept && least_against <= 0.0;
+      }
+      uint bits = 0u;
+      [[unroll]] for (uint part = 0u; part < kParts; ++part) {
+        vec4 l = bounds_in[part].low;
+        vec4 m = bounds_in[part].high;
+        bool here = kept && most(most(a.x - l.x * a.z, b.x - l.x * b.z), c.x - l.x * c.z) >= l.z &&
+                    least(least(a.x - m.x * a.z, b.x - m.x * b.z), c.x - m.x * c.z) <= m.z &&
+                    most(most(a.y - l.y * a.z, b.y - l.y * b.z), c.y - l.y * c.z) >= l.w &&
+                    least(least(a.y - m.y * a.z, b.y - m.y * b.z), c.y - m.y * c.z) <= m.w;
+        bits |= here ? 1u << (8u * part) : 0u;
+      }
+      survivors = all_bits(bits << (lane & 7u));
       current = survivors == 0u ? pop(top, farthest) : current;
     } while (survivors == 0u && current != kDone);
     // Plane and barycentric weights as linear forms of the position (Woop 2004), each in its own invocation.
-    vec3 n = cross(e1, e2);
     float scale = 1.0 / dot(n, n);
     vec3 p = cross(e2, n) * scale;
     vec3 q = cross(n, e1) * scale;
     float dn = dot(n, a);
     float dp = -dot(p, a);
     float dq = -dot(q, a);
-    // A mirrored tile turns faces round; a triangle that shows both sides has no sign to heed.
-    float turned = (triangle_flags & kBvhCulled) != 0u ? forward : 0.0;
-    while (survivors != 0u) {
-      uint j = uint(findLSB(survivors));
-      survivors &= survivors - 1u;
-      vec4 plane = vec4(OF_LANE(n.x, j), OF_LANE(n.y, j), OF_LANE(n.z, j), OF_LANE(dn, j));
-      vec4 weight_p = vec4(OF_LANE(p.x, j), OF_LANE(p.y, j), OF_LANE(p.z, j), OF_LANE(dp, j));
-      vec4 weight_q = vec4(OF_LANE(q.x, j), OF_LANE(q.y, j), OF_LANE(q.z, j), OF_LANE(dq, j));
-      float sign_of_back = HAS(kFeatureCull) ? OF_LANE(turned, j) : 0.0;
-      bool cut_out = HAS(kFeatureMask) && (OF_LANE(triangle_flags, j) & kBvhCutOut) != 0u;
-      [[unroll]] for (uint r = 0u; r < kRays; ++r) {
-        float against = plane.x * su[r] + plane.y * sv[r] + plane.z;
-        float w = (plane.w - (plane.x * u0[r] + plane.y * v0[r])) / against;
-        float x = u0[r] + w * su[r];
-        float y = v0[r] + w * sv[r];
-        float k = weight_p.x * x + weight_p.y * y + weight_p.z * w + weight_p.w;
-        float l = weight_q.x * x + weight_q.y * y + weight_q.z * w + weight_q.w;
-        bool hit = k >= 0.0 && l >= 0.0 && k + l <= 1.0 && w > 0.0 && w < t[r];
-        if (HAS(kFeatureCull)) {
-          hit = hit && sign_of_back * against <= 0.0;
-        }
-        if (HAS(kFeatureMask)) {
-          unsure[r] = hit && cut_out && w < unsure[r] ? w : unsure[r];
-          hit = hit && !cut_out;
-        }
-        t[r] = hit ? w : t[r];
-        found[r] = hit ? first + j : found[r];
-      }
+    TEST_PART(0u)
+    if (kParts > 1u) {
+      TEST_PART(kLastPart)
     }
     float worst = t[0];
     [[unroll]] for (uint r = 1u; r < kRays; ++r) {
@@ -278,15 +311,13 @@ void main() {
   }
   [[unroll]] for (uint r = 0u; r < kRays; ++r) {
     int at = pixel_of(r);
+    vec4 direction = directions[r];
     // A triangle found for the tile must hold for the ray itself: it may lie within rounding of an edge, or behind the
-    // ray's own start.
-    vec4 direction = texelFetch(ray_directions, max(at, 0));
-    vec3 origin = texelFetch(ray_origins, max(at, 0)).xyz;
+    // ray's own start, or show it its back; and only the ray can tell a hole in what is cut out.
     bool met = found[r] != kNoTriangle;
-    bool holds = sound && (!met || is_hit(plane_hit(met ? found[r] : 0u, origin, direction.xyz), kFarthest));
-    if (HAS(kFeatureMask)) {
-      holds = holds && unsure[r] >= t[r];
-    }
+    PlaneHit there = plane_hit(met ? found[r] : 0u, starts[r], direction.xyz);
+    bool holds = sound && (!met || (is_hit(there, kFarthest) && (there.flags & kBvhCutOut) == 0u &&
+                                    ((there.flags & kBvhCulled) == 0u || there.determinant > 0.0)));
     if (at >= 0) {
       hits[at] = found[r];
     }

@@ -82,5 +82,8 @@ struct EnvironmentData {
   vec4 sky_zenith;
   vec4 sky_horizon;
   vec4 ambient;
-  ivec4 counts;  // lights, first texel of the second coordinates and colours
+  ivec4 counts;  // -, first texel of the second coordinates and colours
+  // The first light, and nothing; it gives none in a scene without lights. Two, so that it is looked up by an index:
+  // lavapipe compiles a kernel anew for each dispatch that branches on a uniform buffer's words at a constant place.
+  LightData first_light[2];
 };

@@ -10,7 +10,7 @@ layout(binding = 3) uniform usamplerBuffer reaches;
 #include "render/shaders/disc_gather.glsl"
 
 void main() {
-  ivec2 square = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 square = pixel_in_picture();
   int width = blur_level_width(tile_count(), 1);
   if (2 * square.x >= frame.size.x || 2 * square.y >= frame.size.y) {
     return;

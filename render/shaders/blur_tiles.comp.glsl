@@ -60,7 +60,7 @@ Mean leave_square(ivec2 corner, Tap taps[4], out vec2 nearest_and_reach) {
 }
 
 void main() {
-  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 tile = pixel_in_picture();
   if (any(greaterThanEqual(tile, tile_count()))) {
     return;
   }

@@ -212,9 +212,8 @@ LensModel as_mesh(const LensModel& lenses, int facets) {
 }
 
 LensModel as_bezier_patches(const LensModel& lenses) {
-  return all_converted(lenses, [](const SurfaceData& s, double, std::vector<glm::dvec4>& table) {
-    return patched(s, table);
-  });
+  return all_converted(lenses,
+                       [](const SurfaceData& s, double, std::vector<glm::dvec4>& table) { return patched(s, table); });
 }
 
 }  // namespace lenses

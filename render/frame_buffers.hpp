@@ -56,7 +56,7 @@ struct FrameBuffers {
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
       blocks, blur_tiles, blur_widest, blur_reaches, blur_levels, blur_nearest, blur_squares, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
-  int samples = 0;  // in sums
+  int samples = 0;                    // in sums
 };
 
 // View `index` of a frame of config's size: one buffer of it, or all that the settings keep.

@@ -51,7 +51,8 @@ std::vector<lenses::f32::TraceOutput> GpuTracer::trace(const lenses::TraceBatch&
     const std::array bindings{vk::Binding::texel_rgba32f, vk::Binding::storage_buffer, vk::Binding::storage_buffer,
                               vk::Binding::storage_buffer, vk::Binding::storage_buffer};
     found = kernels_
-                .emplace(constants, vk::Kernel(device_, shaders::trace, bindings, sizeof(std::uint32_t), constants, "trace"))
+                .emplace(constants,
+                         vk::Kernel(device_, shaders::trace, bindings, sizeof(std::uint32_t), constants, "trace"))
                 .first;
   }
   const std::vector<glm::vec4> entries = lenses::to_float(batch.model.table);

@@ -35,8 +35,8 @@ struct ViewSetup {
 // Rounds to float once. A view whose numbers are not finite throws std::invalid_argument.
 [[nodiscard]] gpu::ViewData make_view_data(const ViewSetup& setup, const lenses::LensModel& lenses);
 
-// What kernels must know of these views, whatever their numbers: bit k for the way of viewing k, 8 for a lens that turns
-// with the eye, 16 for a headset's virtual image.
+// What kernels must know of these views, whatever their numbers: bit k for the way of viewing k, 8 for a lens that
+// turns with the eye, 16 for a headset's virtual image.
 [[nodiscard]] std::uint32_t view_traits(const std::vector<ViewSetup>& views, const lenses::LensModel& lenses);
 
 }  // namespace render

@@ -52,8 +52,7 @@ Colour opponent(const Colour& rgb) {
 Colour rgb_of_xyz(const Colour& xyz) {
   const auto& m = kXyzFromRgb;
   const auto det = [](const Colour& a, const Colour& b, const Colour& c) {  // of columns
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
-           c[0] * (a[1] * b[2] - a[2] * b[1]);
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) + c[0] * (a[1] * b[2] - a[2] * b[1]);
   };
   const Colour r{m[0][0], m[1][0], m[2][0]}, g{m[0][1], m[1][1], m[2][1]}, b{m[0][2], m[1][2], m[2][2]};
   const double whole = det(r, g, b);
@@ -64,8 +63,7 @@ Colour rgb_of_xyz(const Colour& xyz) {
 Colour shown(const Colour& opponent_colour) {
   const Colour w = white();
   const double y = (opponent_colour[0] + 16.0) / 116.0;
-  Colour rgb =
-      rgb_of_xyz({w[0] * (y + opponent_colour[1] / 500.0), w[1] * y, w[2] * (y - opponent_colour[2] / 200.0)});
+  Colour rgb = rgb_of_xyz({w[0] * (y + opponent_colour[1] / 500.0), w[1] * y, w[2] * (y - opponent_colour[2] / 200.0)});
   for (double& c : rgb) {
     c = std::clamp(c, 0.0, 1.0);
   }
@@ -237,8 +235,8 @@ Seen seen(const Image8& image, double pixels_per_degree) {
     plane.resize(pixels);
   }
   for (std::size_t i = 0; i < pixels; ++i) {
-    const Colour colour = opponent(
-        {srgb_decode(image.rgb[3 * i]), srgb_decode(image.rgb[3 * i + 1]), srgb_decode(image.rgb[3 * i + 2])});
+    const Colour colour =
+        opponent({srgb_decode(image.rgb[3 * i]), srgb_decode(image.rgb[3 * i + 1]), srgb_decode(image.rgb[3 * i + 2])});
     for (std::size_t c = 0; c < 3; ++c) {
       planes[c][i] = colour[c];
     }

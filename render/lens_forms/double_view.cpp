@@ -40,9 +40,9 @@ void lay_view(Part at, const ViewSetup& setup, const lenses::f64::LensData& lens
   at[gpu::kDoubleExcessAt] = setup.eye.excess;
   at[gpu::kDoublePupilAt] = setup.eye.pupil;
   at[gpu::kDoublePupilAt].z = setup.accommodation.value_or(-1.0);
-  std::ranges::copy(std::initializer_list<glm::dvec4>{lens.axis_x, lens.axis_y, lens.axis_z, lens.glass,
-                                                      glm::dvec4(lens.mount)},
-                    at.begin() + gpu::kDoubleLensAt);
+  std::ranges::copy(
+      std::initializer_list<glm::dvec4>{lens.axis_x, lens.axis_y, lens.axis_z, lens.glass, glm::dvec4(lens.mount)},
+      at.begin() + gpu::kDoubleLensAt);
   lay_surface(at.subspan(gpu::kDoubleBackAt), lens.back);
   lay_surface(at.subspan(gpu::kDoubleFrontAt), lens.front);
 }

@@ -29,8 +29,7 @@ IterationHistogram of_view(const ViewSetup& view, const f64::LensData& lens, int
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::dvec3 direction = view_direction(view, {(x + 0.5) / width, (y + 0.5) / height});
-      const glm::dmat3 turn =
-          f64::eye_turn(static_cast<int>(view.viewing), glm::normalize(view.view.gaze), direction);
+      const glm::dmat3 turn = f64::eye_turn(static_cast<int>(view.viewing), glm::normalize(view.view.gaze), direction);
       const auto path = trace(turn, direction);
       if (path.status == f64::kStatusOk) {
         count(histogram, lens.back, path.steps_back);
@@ -50,9 +49,9 @@ std::size_t IterationHistogram::iterated() const {
 double IterationHistogram::settled_within(std::size_t steps) const {
   const std::size_t all = iterated();
   const auto end = surfaces.begin() + static_cast<std::ptrdiff_t>(std::min(steps, kMost) + 1);
-  return all == 0 ? 1.0
-                  : static_cast<double>(std::accumulate(surfaces.begin(), end, std::size_t{0})) /
-                        static_cast<double>(all);
+  return all == 0
+             ? 1.0
+             : static_cast<double>(std::accumulate(surfaces.begin(), end, std::size_t{0})) / static_cast<double>(all);
 }
 
 IterationHistogram& IterationHistogram::operator+=(const IterationHistogram& other) {

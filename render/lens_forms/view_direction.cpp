@@ -19,8 +19,7 @@ glm::dvec3 view_direction(const ViewSetup& view, const glm::dvec2& at) {
   // A headset's pixel is a point of its virtual image, seen from where the pupil really is.
   const glm::dvec3 point =
       glm::dvec3(0.0, 0.0, view.virtual_image->origin_behind_pupil) + view.virtual_image->distance * direction;
-  const glm::dmat3 turn =
-      f64::eye_turn(static_cast<int>(view.viewing), glm::normalize(view.view.gaze), direction);
+  const glm::dmat3 turn = f64::eye_turn(static_cast<int>(view.viewing), glm::normalize(view.view.gaze), direction);
   return glm::normalize(point - f64::turned_pupil(turn, view.eye.pupil.y));
 }
 

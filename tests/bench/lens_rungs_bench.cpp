@@ -48,7 +48,8 @@ void bench(support::RungDevice& device, const char* name, const support::WornPai
   for (const render::Rung& rung : render::ladder()) {
     const bool is_lens = rung.subject.starts_with("lens") || rung.name == "standard";
     if (is_lens) {
-      rows.push_back({rung.name, std::make_unique<support::RungFrame>(device, pair, view, rung.accuracy.lens, size), {}, {}});
+      rows.push_back(
+          {rung.name, std::make_unique<support::RungFrame>(device, pair, view, rung.accuracy.lens, size), {}, {}});
     }
   }
   for (int round = -1; round < rounds; ++round) {
@@ -87,6 +88,7 @@ int main(int argc, char** argv) {
   const auto spline = lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_sphere.json");
   for (const auto& [name, spectacles] : {std::pair{"progressive_add200", same}, std::pair{"bspline/sphere", spline}}) {
     const auto pair = support::wear(lenses::Wearer{}, &spectacles, tracking::Pose{});
-    bench(device, name, pair, support::view_along(pair, 0, render::Viewing::gaze, {0.0, -0.2, -1.0}, fov), size, rounds);
+    bench(device, name, pair, support::view_along(pair, 0, render::Viewing::gaze, {0.0, -0.2, -1.0}, fov), size,
+          rounds);
   }
 }

@@ -101,7 +101,8 @@ TEST_F(LiveGazeTest, ThroughLensesBothRaysReachOnePoint) {
     for (const double distance : {0.4, 4.0}) {
       for (const auto& [yaw, pitch] : std::vector<std::pair<double, double>>{{0, 0}, {15, -10}, {-20, 12}}) {
         // From midway between the centres of rotation, which all lines of an eye pass.
-        const Line gaze{{0.0, 0.0, eyes[0].eye.pupil.y}, tracking::direction_from_yaw_pitch(yaw * kRadians, pitch * kRadians)};
+        const Line gaze{{0.0, 0.0, eyes[0].eye.pupil.y},
+                        tracking::direction_from_yaw_pitch(yaw * kRadians, pitch * kRadians)};
         const Fixation f = render::fixate_combined(table(), eyes, Viewing::gaze, {}, gaze, wall(distance));
         EXPECT_NEAR(f.line[0].point.z, -distance, 1e-9);
         for (const auto& line : f.line) {

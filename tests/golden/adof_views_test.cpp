@@ -1,8 +1,8 @@
 // Approximate defocus against distributed rays, 4096 a pixel, in a committed set of views.
 //
 // VERGENCE_REMAKE_REFERENCES=1 renders tests/golden/references/defocus anew instead of comparing, those alone whose
-// test
-// --gtest_filter names; with VERGENCE_REFERENCE_SAMPLES=N by N samples. Half an hour of two cores for all.
+// test --gtest_filter names; with VERGENCE_REFERENCE_SAMPLES=N by N samples. Half an hour of two cores for all.
+// VERGENCE_MATCHING_SAMPLES=1 says besides how many distributed rays come as close as approximate defocus does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,6 +42,20 @@ class AdofViews : public testing::TestWithParam<DefocusView> {
     const std::filesystem::path file = support::defocus_reference(view);
     std::filesystem::create_directories(file.parent_path());
     support::write_defocus_reference(file, views_->render(view, config).radiance);
+  }
+
+  // The least power of two of distributed rays that come this close to the reference; 0: more than its quarter would.
+  static int matching_samples(const DefocusView& view, const std::vector<float>& reference, double psnr_db) {
+    FrameConfig config;
+    config.mode = Mode::dof;
+    config.seed = 1;  // the reference's samples are not these
+    for (config.samples = 1; config.samples <= 256; config.samples *= 2) {
+      const auto radiance = views_->render(view, config).radiance;
+      if (render::compare_shown(radiance, reference, 1.0, support::defocus_judged()).psnr_db >= psnr_db) {
+        return config.samples;
+      }
+    }
+    return 0;
   }
 
   // Of those that are judged, 1 for the pixels whose blur's major semi-axis is more than 2 px.
@@ -84,6 +98,9 @@ TEST_P(AdofViews, ComeCloseToDistributedRays) {
   std::cout << std::fixed << std::setprecision(2) << view.name << ": adof " << reached << " dB (whole picture "
             << psnr(adof, {}) << "); where blurred by more than 2 px adof " << reached_where_blurred << ", pinhole "
             << unblurred << "\n";
+  if (std::getenv("VERGENCE_MATCHING_SAMPLES") != nullptr) {
+    std::cout << view.name << ": as close as " << matching_samples(view, reference, reached) << " samples of dof\n";
+  }
   EXPECT_GE(reached, view.least_db);
   EXPECT_GE(reached_where_blurred, unblurred + 12.0);
 }

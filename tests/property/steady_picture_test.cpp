@@ -8,6 +8,7 @@
 
 #include "lenses/lens_model.hpp"
 #include "tests/support/eye_movement.hpp"
+#include "tests/support/meniscus.hpp"
 #include "tests/support/random_lens.hpp"
 #include "tracking/direction.hpp"
 #include "tracking/gaze_follower.hpp"
@@ -21,23 +22,11 @@ constexpr std::uint64_t kSeed = 2012;
 constexpr double kPixelsPerDegree = 20.0;
 constexpr double kImageDistance = 1.5;  // m, of the headset's virtual image
 
-lenses::Lens lens_of(double power) {
-  lenses::Lens lens;
-  lens.index = 1.5;
-  lens.centre_thickness = power > 0.0 ? 0.006 : 0.0015;
-  lens.diameter = 0.07;
-  const double front = power > 0.0 ? 10.0 : 3.0;
-  const double at_back = front / (1.0 - lens.centre_thickness / lens.index * front);
-  lens.front = lenses::Sphere{front / 0.5};
-  lens.back = lenses::Sphere{(at_back - power) / 0.5};
-  return lens;
-}
-
 // An eye behind a lens whose picture is fixed to the head: each pixel a point of the virtual image.
 class Picture {
  public:
   explicit Picture(double power) {
-    const lenses::Lens lens = lens_of(power);
+    const lenses::Lens lens = support::meniscus(power);
     static_cast<void>(lenses::append_lens(model_, &lens, lenses::Side::right, 0.00305));
     eye_ = lenses::make_eye_data({}, 0.0, 0.0035);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lenses/trace.hpp"
+#include "tests/support/meniscus.hpp"
 #include "tests/support/random_lens.hpp"
 
 namespace {
@@ -37,14 +38,7 @@ class FixationTest : public testing::Test {
 
   // A meniscus of this back vertex power, 27 mm before the centre of rotation.
   static lenses::Lens meniscus(double power, double decentration = 0.0) {
-    lenses::Lens lens;
-    lens.index = 1.5;
-    lens.centre_thickness = power > 0.0 ? 0.006 : 0.0015;
-    lens.diameter = 0.07;
-    const double front = power > 0.0 ? 10.0 : 3.0;
-    const double at_back = front / (1.0 - lens.centre_thickness / lens.index * front);
-    lens.front = lenses::Sphere{front / 0.5};
-    lens.back = lenses::Sphere{(at_back - power) / 0.5};
+    lenses::Lens lens = support::meniscus(power);
     lens.fit.vertex_distance = 0.0135;
     lens.fit.decentration.x = decentration;
     return lens;

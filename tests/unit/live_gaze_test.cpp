@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lenses/trace.hpp"
+#include "tests/support/meniscus.hpp"
 #include "tests/support/random_lens.hpp"
 #include "tracking/direction.hpp"
 
@@ -40,14 +41,7 @@ class LiveGazeTest : public testing::Test {
   }
 
   static lenses::Lens meniscus(double power, const glm::dvec2& decentration = {}) {
-    lenses::Lens lens;
-    lens.index = 1.5;
-    lens.centre_thickness = power > 0.0 ? 0.006 : 0.0015;
-    lens.diameter = 0.07;
-    const double front = power > 0.0 ? 10.0 : 3.0;
-    const double at_back = front / (1.0 - lens.centre_thickness / lens.index * front);
-    lens.front = lenses::Sphere{front / 0.5};
-    lens.back = lenses::Sphere{(at_back - power) / 0.5};
+    lenses::Lens lens = support::meniscus(power);
     lens.fit.decentration = decentration;
     return lens;
   }

@@ -31,9 +31,10 @@ class ReprojectionWatchTest : public ::testing::Test {
     lens.front = lenses::Sphere{0.0};
     lens.back = lenses::Sphere{-12.0};
     for (const tracking::Side side : {tracking::Side::right, tracking::Side::left}) {
-      render::EyeOptics& eye = pair_.eyes[static_cast<std::size_t>(side)];
-      eye.lens = lenses::append_lens(model_, side == tracking::Side::right ? &lens : nullptr, side, 0.00305);
-      eye.eye = lenses::make_eye_data({}, 0.0, 0.0035);
+      const bool worn = side == tracking::Side::right;
+      const std::size_t index = lenses::append_lens(model_, worn ? &lens : nullptr, side, 0.00305);
+      pair_.eyes[static_cast<std::size_t>(side)] = {
+          .lens = model_.lens[index], .eye = lenses::make_eye_data({}, 0.0, 0.0035), .world_from_eye = {}};
     }
   }
 
@@ -52,7 +53,7 @@ TEST_F(ReprojectionWatchTest, TheErrorIsThatOfTheHeadsSpeed) {
   EXPECT_NEAR(watch_.head_turn().y, 90.0 * kRadians, 1e-9);
   EXPECT_NEAR(std::hypot(watch_.head_turn().x, watch_.head_turn().z), 0.0, 1e-9);
   const double thin = lenses::thin_lens_reprojection_error(6.0, 0.013 + 0.00305, 1.0 * kRadians);
-  EXPECT_NEAR(error(), thin, 2e-3 * thin);  // but for 10 um of thickness
+  EXPECT_NEAR(error(), thin, 2e-3 * thin);         // but for 10 um of thickness
   EXPECT_NEAR(thin / kRadians * 60.0, 6.4, 0.05);  // arcmin: what is at stake at an ordinary turn
 }
 

@@ -85,6 +85,18 @@ PlatePicture ground(int width, int height, double corner, double opacity) {
   return picture;
 }
 
+PlatePicture with_border(const PlatePicture& inner) {
+  constexpr int kBorder = PlatePicture::kBorder;
+  PlatePicture picture{.width = inner.width + 2 * kBorder, .height = inner.height + 2 * kBorder};
+  picture.rgba.resize(4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+  const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(inner.width);
+  for (int y = 0; y < inner.height; ++y) {
+    std::copy_n(inner.rgba.begin() + y * row, row,
+                picture.rgba.begin() + 4 * ((y + kBorder) * static_cast<std::ptrdiff_t>(picture.width) + kBorder));
+  }
+  return picture;
+}
+
 }  // namespace
 
 struct Plate::Row {
@@ -161,7 +173,8 @@ std::vector<Plate::Row> Plate::laid_out(const std::vector<PlateLine>& lines) con
     if (in_column) {
       rows.push_back({margin, top, drawn_characters(line.label), line.kind, true});
     }
-    for (std::u32string& text : broken(line.text, font_of(line.kind), config_.most_width - margin - left)) {
+    for (std::u32string& text :
+         broken(line.text, font_of(line.kind), config_.most_width - 2 * PlatePicture::kBorder - margin - left)) {
       rows.push_back({left, top, std::move(text), line.kind, false});
       top += kLineStep * x;
     }
@@ -178,8 +191,9 @@ PlatePicture Plate::draw(const std::vector<PlateLine>& lines) const {
     right = std::max(right, row.x + font_of(row.kind).width(row.text));
     bottom = std::max(bottom, row.top + kLineStep * x);
   }
-  const int width = std::min(config_.most_width, static_cast<int>(std::ceil(right + margin)));
-  const int height = std::min(config_.most_height, static_cast<int>(std::ceil(bottom + margin - 0.9 * x)));
+  constexpr int kBorders = 2 * PlatePicture::kBorder;
+  const int width = std::min(config_.most_width - kBorders, static_cast<int>(std::ceil(right + margin)));
+  const int height = std::min(config_.most_height - kBorders, static_cast<int>(std::ceil(bottom + margin - 0.9 * x)));
   PlatePicture picture = ground(width, height, kCorner * x, config_.opacity);
   for (const Row& row : rows) {
     const Kind kind = row.is_label && row.kind == Kind::plain ? Kind::quiet : row.kind;
@@ -193,7 +207,7 @@ PlatePicture Plate::draw(const std::vector<PlateLine>& lines) const {
       pen += glyph.advance;
     }
   }
-  return picture;
+  return with_border(picture);
 }
 
 }  // namespace app

@@ -20,8 +20,11 @@ struct PlateLine {
 };
 
 // Red, green, blue, opacity, display-encoded after being multiplied by the opacity in linear light, as a compositor
-// takes them from an image of an sRGB format; top row first. Fully transparent at its round corners.
+// takes them from an image of an sRGB format; top row first. Around the plate are kBorder transparent pixels, so that
+// its edge stays smooth and alone when it is resampled.
 struct PlatePicture {
+  static constexpr int kBorder = 2;
+
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba = {};
 };
@@ -29,7 +32,7 @@ struct PlatePicture {
 struct PlateConfig {
   std::string font, bold_font;  // files
   double x_height = 18.0;       // px
-  int most_width = 1024, most_height = 1024;
+  int most_width = 1024, most_height = 1280;
   int most_rows = 3;  // that one line's text is broken into
   double opacity = 0.9;
 };
@@ -41,8 +44,8 @@ class Plate {
 
   explicit Plate(const PlateConfig& config);
 
-  // As wide and high as the text asks for, within the most allowed: long texts are broken, what is still too much ends
-  // in an ellipsis.
+  // As wide and high as the text asks for, within the most allowed: long texts are broken and end in an ellipsis, rows
+  // below the most height are left out.
   [[nodiscard]] PlatePicture draw(const std::vector<PlateLine>& lines) const;
 
   [[nodiscard]] const PlateConfig& config() const { return config_; }

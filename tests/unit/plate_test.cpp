@@ -69,9 +69,12 @@ TEST(Plate, LettersHaveTheHeightAskedFor) {
 
 TEST(Plate, IsDarkTranslucentAndMultipliedByItsOpacity) {
   const PlatePicture picture = Plate(fonts()).draw({{"Pair", "progressive"}});
-  EXPECT_EQ(pixel(picture, 0, 0)[3], 0) << "round corners";
-  EXPECT_EQ(pixel(picture, picture.width - 1, picture.height - 1)[3], 0);
-  const std::uint8_t* ground = pixel(picture, picture.width / 2, 2);
+  constexpr int kIn = PlatePicture::kBorder;
+  EXPECT_EQ(pixel(picture, kIn, kIn)[3], 0) << "round corners";
+  EXPECT_EQ(pixel(picture, picture.width - 1 - kIn, picture.height - 1 - kIn)[3], 0);
+  EXPECT_EQ(pixel(picture, picture.width / 2, kIn - 1)[3], 0) << "the border";
+  EXPECT_EQ(pixel(picture, picture.width - kIn, picture.height / 2)[3], 0);
+  const std::uint8_t* ground = pixel(picture, picture.width / 2, kIn);
   EXPECT_NEAR(ground[3], 255 * Plate(fonts()).config().opacity, 1.0);
   std::uint8_t brightest = 0;
   for (int i = 0; i < picture.width * picture.height; ++i) {

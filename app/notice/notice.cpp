@@ -1,7 +1,10 @@
 #include "app/notice/notice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <string_view>
+#include <utility>
 
 namespace app {
 namespace {
@@ -10,19 +13,32 @@ using Kind = PlateLine::Kind;
 
 constexpr const char* kDot = " \u00b7 ";
 
-std::string short_source(const std::string& source) {
-  return source == "tracker" ? "eye tracker" : source == "held" ? "held" : source == "head" ? "head only" : "recording";
+struct Source {
+  const char* name;
+  const char* brief;
+  const char* whole;
+};
+
+// tracking::name of a source, and what a replay is.
+constexpr std::array kSources{Source{"tracker", "eye tracker", "from the eye tracker"},
+                              Source{"held", "held", "held: the eye tracker has lost the eyes"},
+                              Source{"head", "head only", "no eye tracker: straight ahead of the head"},
+                              Source{"target", "at the target", "no eye tracker: at the target"},
+                              Source{"replay", "recording", "from the recording"}};
+
+Source source_of(const std::string& name) {
+  const auto found = std::ranges::find(kSources, std::string_view(name), &Source::name);
+  return found != kSources.end() ? *found : Source{name.c_str(), name.c_str(), name.c_str()};
 }
 
 std::string pairs_text(const NoticeContent& content) {
-  if (!content.spectacles_on || content.pairs.empty()) {
-    return "no spectacles";
-  }
-  return content.pairs.size() == 1 ? content.pairs[0] : "A " + content.pairs[0] + kDot + "B " + content.pairs[1];
+  return content.pairs.empty()       ? "no spectacles"
+         : content.pairs.size() == 1 ? content.pairs[0]
+                                     : "A " + content.pairs[0] + kDot + "B " + content.pairs[1];
 }
 
 void add_pairs(std::vector<PlateLine>& lines, const NoticeContent& content) {
-  if (content.pairs.size() < 2 || !content.spectacles_on) {
+  if (content.pairs.size() < 2) {
     lines.push_back({"Pair", pairs_text(content)});
     return;
   }
@@ -41,10 +57,7 @@ std::size_t letters(const std::vector<PlateLine>& lines) {
 }  // namespace
 
 std::string gaze_source_text(const std::string& source) {
-  return source == "tracker" ? "from the eye tracker"
-         : source == "held"  ? "held: the eye tracker has lost the eyes"
-         : source == "head"  ? "no eye tracker: straight ahead of the head"
-                             : "from the recording";
+  return source_of(source).whole;
 }
 
 std::vector<PlateLine> Notice::whole(const NoticeContent& content) const {
@@ -68,7 +81,7 @@ std::vector<PlateLine> Notice::whole(const NoticeContent& content) const {
 }
 
 std::vector<PlateLine> Notice::brief(const NoticeContent& content) const {
-  std::string source = "gaze: " + short_source(source_);
+  std::string source = std::string("gaze: ") + source_of(source_).brief;
   if (!content.rung.empty()) {
     source += kDot + content.rung;
   }

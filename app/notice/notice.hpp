@@ -11,8 +11,7 @@
 namespace app {
 
 struct NoticeContent {
-  std::vector<std::string> pairs = {};  // one, or A and B to either side of a divider
-  bool spectacles_on = true;
+  std::vector<std::string> pairs = {};     // one, or A and B to either side of a divider
   std::string gaze_source = {};            // as tracking::name has it, or "replay"
   std::string rung = {};                   // of accuracy; empty: none is in use
   std::string map = {};                    // laid over the scene; empty: none

@@ -36,6 +36,9 @@ VrConnection::VrConnection(VrWorld& world)
   bindings_.attach(session_);
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
   loop_.while_idle([this] { return !stop_if_wanted(); });
+  if (!world.options().no_text) {
+    text_.emplace(device_, session_, loop_);
+  }
   describe();
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
 }
@@ -118,11 +121,17 @@ void VrConnection::show(const xr::Frame& frame) {
   }
   wait_for_device();
   mark("device wait");
+  std::vector<const xr::Panel*> panels;
+  if (text_) {
+    text_->update(world_, frame);
+    panels.push_back(&text_->panel());
+  }
+  mark("text");
   const std::array<std::uint32_t, 2> images = loop_.acquire();
   mark("image wait");
   pictures_.start(world_.setup(), images);
   mark("submit");
-  loop_.show(frame);
+  loop_.show(frame, panels);
   mark("hand over");
   ++world_.report().shown;
 }

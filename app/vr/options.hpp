@@ -22,6 +22,7 @@ struct VrOptions {
   std::string screenshot;
   std::string record, replay;  // FILE.csv
   std::optional<int> frames;
+  bool no_text = false;  // nothing to read in the headset
   bool json = false;
 };
 

@@ -26,6 +26,10 @@ class VrWorld {
   // Sizes, eyes, pairs and the guard band are for the pictures to say.
   [[nodiscard]] const render::LiveConfig& config() const { return config_; }
   [[nodiscard]] VrReport& report() { return report_; }
+  [[nodiscard]] const VrReport& report() const { return report_; }
+
+  // Of the picture placed last: as tracking::name has it, or "replay".
+  [[nodiscard]] std::string gaze_source() const { return replay_ ? "replay" : tracking::name(wearer_.state().source); }
 
   // As many pictures as were asked for have been shown.
   [[nodiscard]] bool is_finished() const;

@@ -62,9 +62,8 @@ TEST(Notice, AChangeBringsTheWholeBackWithoutTheLimits) {
   EXPECT_EQ(change(300.0, "Target"), "near card");
   content.warnings = {"the prisms differ"};
   EXPECT_EQ(change(400.0, "Warning"), "the prisms differ");
-  content.spectacles_on = false;
+  content.pairs = {"no spectacles"};
   EXPECT_EQ(change(500.0, "Pair"), "no spectacles");
-  content.spectacles_on = true;
   content.pairs = {"bifocal", "progressive"};
   EXPECT_EQ(change(600.0, "Right of line"), "B: progressive");
 }
@@ -102,6 +101,13 @@ TEST(Notice, ABlinkIsNotNamed) {
     EXPECT_FALSE(notice.step(time + 0.35, content));
     EXPECT_FALSE(notice.step(time + 0.9, content));
   }
+}
+
+TEST(Notice, EverySourceIsNamed) {
+  for (const char* source : {"tracker", "held", "head", "target", "replay"}) {
+    EXPECT_NE(app::gaze_source_text(source), source);
+  }
+  EXPECT_EQ(app::gaze_source_text("another"), "another");
 }
 
 app::DisplayLimits headset_of(double pixels_per_degree) {

@@ -29,7 +29,21 @@ double display_pixels_per_degree(const RenderSetup& setup, bool has_headset_file
                           : pixels_per_degree(display_width, fov.tan_left, fov.tan_right);
 }
 
-NoticeContent content_of(const VrWorld& world, const std::vector<PlateLine>& limits) {
+}  // namespace
+
+DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, const tracking::FieldOfView& fov,
+                             int image_width, int display_width) {
+  DisplayLimits limits;
+  limits.headset = setup.headset.value();
+  limits.pixels_per_degree = std::min(display_pixels_per_degree(setup, has_headset_file, fov, display_width),
+                                      pixels_per_degree(image_width, fov.tan_left, fov.tan_right));
+  limits.pupil_diameter = setup.pairs.front().eyes[0].eye.pupil.x;
+  limits.sunlit_pupil = lenses::pupil_diameter_in_light(kSunlitPage_cd_m2, kHeadsetField_deg2, true, setup.wearer.age);
+  limits.viewer_known = setup.wearer.viewer[0] || setup.wearer.viewer[1];
+  return limits;
+}
+
+NoticeContent notice_content(const VrWorld& world, const std::vector<PlateLine>& limits) {
   NoticeContent content;
   for (const WornPair& pair : world.setup().pairs) {
     content.pairs.push_back(pair.name);
@@ -44,20 +58,6 @@ NoticeContent content_of(const VrWorld& world, const std::vector<PlateLine>& lim
   }
   content.limits = limits;
   return content;
-}
-
-}  // namespace
-
-DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, const tracking::FieldOfView& fov,
-                             int image_width, int display_width) {
-  DisplayLimits limits;
-  limits.headset = setup.headset.value();
-  limits.pixels_per_degree = std::min(display_pixels_per_degree(setup, has_headset_file, fov, display_width),
-                                      pixels_per_degree(image_width, fov.tan_left, fov.tan_right));
-  limits.pupil_diameter = setup.pairs.front().eyes[0].eye.pupil.x;
-  limits.sunlit_pupil = lenses::pupil_diameter_in_light(kSunlitPage_cd_m2, kHeadsetField_deg2, true, setup.wearer.age);
-  limits.viewer_known = setup.wearer.viewer[0] || setup.wearer.viewer[1];
-  return limits;
 }
 
 HeadsetText::HeadsetText(const render::vk::Device& device, const xr::Session& session, const xr::FrameLoop& loop)
@@ -78,7 +78,7 @@ void HeadsetText::update(const VrWorld& world, const xr::Frame& frame) {
   if (limits_.empty()) {
     see_display(world, frame);
   }
-  const auto lines = notice_.step(xr::seconds(frame.display_time), content_of(world, limits_));
+  const auto lines = notice_.step(xr::seconds(frame.display_time), notice_content(world, limits_));
   if (!lines) {
     return;
   }

@@ -11,7 +11,7 @@ namespace app {
 
 struct VrOptions {
   SceneOptions scene;
-  PictureOptions picture;
+  PictureOptions picture{.accuracy = "auto"};  // or a rung's name
   std::string mode = "adof";
   int samples = 4;  // dof, in every frame
   std::string range;

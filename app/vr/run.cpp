@@ -6,11 +6,11 @@
 
 namespace app {
 
-VrReport run_vr(const VrOptions& options) {
+VrReport run_vr(const VrOptions& options, const ControlSource& more_controls) {
   const StopOnSignal signals;
   VrWorld world(options);
   try {
-    VrConnection connection(world);
+    VrConnection connection(world, more_controls);
     connection.show_frames();
     connection.finish();
   } catch (const xr::LostError&) {

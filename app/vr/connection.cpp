@@ -127,6 +127,7 @@ void VrConnection::wait_for_device() {
 
 void VrConnection::show(const xr::Frame& frame, double time) {
   VrReport& report = world_.report();
+  report.period = xr::seconds(frame.period);
   const auto since = [](Clock::time_point then) {
     return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
   };

@@ -18,7 +18,7 @@ using tracking::Side;
 
 }  // namespace
 
-VrConnection::VrConnection(VrWorld& world)
+VrConnection::VrConnection(VrWorld& world, MirrorLink* mirror)
     : world_(world),
       instance_({.wanted_extensions = wanted_extensions()}),
       device_(open_headset_device(
@@ -37,6 +37,9 @@ VrConnection::VrConnection(VrWorld& world)
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
   loop_.while_idle([this] { return !stop_if_wanted(); });
   describe();
+  if (mirror != nullptr) {
+    mirror_.emplace(*mirror, device_, std::array{world_.report().width, world_.report().height});
+  }
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
 }
 
@@ -124,6 +127,10 @@ void VrConnection::show(const xr::Frame& frame) {
   mark("submit");
   loop_.show(frame);
   mark("hand over");
+  if (mirror_) {
+    mirror_->after_frame(pictures_.shown());
+    mark("mirror");
+  }
   ++world_.report().shown;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "app/vr/mirror_feed.hpp"
 #include "app/vr/pictures.hpp"
 #include "app/vr/world.hpp"
 #include "xr/actions.hpp"
@@ -13,8 +15,9 @@ namespace app {
 
 class VrConnection {
  public:
-  // Throws xr::Error and render::vk::DeviceError for what fails here. Refers to the world.
-  explicit VrConnection(VrWorld& world);
+  // Throws xr::Error and render::vk::DeviceError for what fails here. Refers to the world and to the mirror, if there
+  // is one.
+  explicit VrConnection(VrWorld& world, MirrorLink* mirror = nullptr);
 
   // Until the session ends; xr::LostError where it is lost.
   void show_frames();
@@ -41,6 +44,7 @@ class VrConnection {
   xr::FrameLoop loop_;
   tracking::Pose world_from_space_;
   Pictures pictures_;
+  std::optional<MirrorFeed> mirror_;
   bool prepared_ = false;
   bool exit_requested_ = false;
 };

@@ -22,6 +22,7 @@ struct VrOptions {
   std::string screenshot;
   std::string record, replay;  // FILE.csv
   std::optional<int> frames;
+  bool mirror = false;
   bool json = false;
 };
 

@@ -28,6 +28,9 @@ class Pictures {
   // What was shown last: left eye | right eye. Nothing where there was no picture.
   [[nodiscard]] std::optional<render::Image8> read_picture();
 
+  // Where it lies while it is under way and after, until the next is started. It must have been prepared.
+  [[nodiscard]] render::ShownPictures shown() const { return live_->shown(); }
+
   [[nodiscard]] int guard_px() const { return config_.guard_px; }
 
  private:

@@ -70,11 +70,14 @@ struct Window::State {
     glfwSetKeyCallback(window.get(), [](GLFWwindow* on, int key, int scancode, int action, int) {
       if (action == GLFW_PRESS) {
         if (std::string name = name_of(key, scancode); !name.empty()) {
-          static_cast<State*>(glfwGetWindowUserPointer(on))->pressed.push_back(std::move(name));
+          of(on).pressed.push_back(std::move(name));
         }
       }
     });
+    glfwSetWindowRefreshCallback(window.get(), [](GLFWwindow* on) { of(on).damaged = true; });
   }
+
+  static State& of(GLFWwindow* window) { return *static_cast<State*>(glfwGetWindowUserPointer(window)); }
 
   struct Destroy {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
@@ -83,6 +86,7 @@ struct Window::State {
   Library library;
   std::unique_ptr<GLFWwindow, Destroy> window;
   std::vector<std::string> pressed;
+  bool damaged = false;
 };
 
 Window::Window(const std::string& title) : state_(std::make_unique<State>(title)) {}
@@ -128,6 +132,10 @@ std::array<int, 2> Window::size() const {
   std::array<int, 2> size{};
   glfwGetFramebufferSize(window, &size[0], &size[1]);
   return size;
+}
+
+bool Window::is_damaged() {
+  return std::exchange(state_->damaged, false);
 }
 
 bool Window::close_wanted() const {

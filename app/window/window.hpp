@@ -38,6 +38,8 @@ class Window {
   [[nodiscard]] std::vector<std::string> pressed();
   // Pixels; 0, 0 while nobody can see it.
   [[nodiscard]] std::array<int, 2> size() const;
+  // The desktop has lost what it showed, since the last call.
+  [[nodiscard]] bool is_damaged();
   [[nodiscard]] bool close_wanted() const;
 
   // For a Device that shows pictures here; the window must outlive it.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/vr/headset_text.hpp"
 #include "app/vr/mirror_feed.hpp"
 #include "app/vr/pictures.hpp"
 #include "app/vr/world.hpp"
@@ -27,9 +28,11 @@ class VrConnection {
 
  private:
   void describe();
+  std::optional<xr::Frame> next_frame();
   bool stop_if_wanted();
-  void show(const xr::Frame& frame);
-  void place(const xr::Frame& frame);
+  // time: s, the session's
+  void show(const xr::Frame& frame, double time);
+  void place(const xr::Frame& frame, double time);
   void prepare_first(const xr::Frame& frame);
   void wait_for_device();
 
@@ -44,8 +47,10 @@ class VrConnection {
   xr::FrameLoop loop_;
   tracking::Pose world_from_space_;
   Pictures pictures_;
+  std::optional<HeadsetText> text_;  // with --no-text there is none
   std::optional<MirrorFeed> mirror_;
   bool prepared_ = false;
+  double processor_before_ = 0.0;  // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;
 };
 

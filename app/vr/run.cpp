@@ -19,10 +19,11 @@ constexpr std::chrono::milliseconds kBetweenTries{500};
 
 // A runtime that is started again takes its time; how it fails meanwhile says nothing. Null where none came in time, or
 // the user has had enough.
-std::unique_ptr<VrConnection> wait_for_runtime(VrWorld& world, Clock::time_point until) {
+std::unique_ptr<VrConnection> wait_for_runtime(VrWorld& world, const ControlSource& more_controls,
+                                               Clock::time_point until) {
   while (Clock::now() < until && !StopOnSignal::wanted()) {
     try {
-      return std::make_unique<VrConnection>(world);
+      return std::make_unique<VrConnection>(world, more_controls);
     } catch (const xr::Error&) {
       std::this_thread::sleep_for(std::min<Clock::duration>(kBetweenTries, until - Clock::now()));
     }
@@ -32,10 +33,10 @@ std::unique_ptr<VrConnection> wait_for_runtime(VrWorld& world, Clock::time_point
 
 }  // namespace
 
-VrReport run_vr(const VrOptions& options) {
+VrReport run_vr(const VrOptions& options, const ControlSource& more_controls) {
   const StopOnSignal signals;
   VrWorld world(options);
-  auto connection = std::make_unique<VrConnection>(world);
+  auto connection = std::make_unique<VrConnection>(world, more_controls);
   for (;;) {
     try {
       connection->show_frames();
@@ -47,8 +48,9 @@ VrReport run_vr(const VrOptions& options) {
       if (options.reconnect_s > 0.0) {
         std::cerr << lost.what() << "; waiting " << options.reconnect_s << " s for a runtime\n";
       }
-      connection = wait_for_runtime(world, Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                              std::chrono::duration<double>(options.reconnect_s)));
+      connection = wait_for_runtime(world, more_controls,
+                                    Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                       std::chrono::duration<double>(options.reconnect_s)));
       if (!connection) {
         throw;
       }

@@ -54,7 +54,7 @@ NoticeContent notice_content(const VrWorld& world, const std::vector<PlateLine>&
   if (const render::Mode mode = world.picture().mode; render::is_map(mode)) {
     content.map = mode_names()[static_cast<std::size_t>(mode)];
   }
-  for (const ViewerFinding& found : world.report().findings) {
+  for (const ViewerFinding& found : world.warnings()) {
     content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
   }
   content.limits = limits;

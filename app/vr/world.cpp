@@ -1,5 +1,6 @@
 #include "app/vr/world.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iostream>
@@ -136,6 +137,9 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
   show(shown_.picture());
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
+  if (views_apart_ && picture_.pairs != warned_of_) {
+    find_warnings();
+  }
   if (recorder_) {
     recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where), rung_name(),
                      pair_name(), recorded_picture(picture_));
@@ -190,16 +194,39 @@ std::string VrWorld::target_name() const {
 }
 
 void VrWorld::warn(double views_apart) {
+  views_apart_ = views_apart;
+  find_warnings();
+}
+
+void VrWorld::find_warnings() {
   const RenderSetup& setup = wearer_.setup();
-  report_.findings = viewer_report(setup);
+  const bool is_first = warned_of_.empty();
+  warned_of_ = picture_.pairs;
+  warnings_ = viewer_report(setup);
   std::array<double, 2> power{};
   for (const std::size_t i : {0U, 1U}) {
     power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);
   }
-  if (const auto finding = lenses::distance_finding(setup.wearer, views_apart, power)) {
-    report_.findings.push_back({"", *finding});
+  if (const auto finding = lenses::distance_finding(setup.wearer, *views_apart_, power)) {
+    warnings_.push_back({"", *finding});
   }
-  std::cerr << to_table(report_.findings);
+  if (!is_first) {  // the first pair is the one that the session was started with
+    for (ViewerFinding& warning : warnings_) {
+      const bool of_pair = warning.finding.code == "vertical_prism" || warning.finding.code == "pupillary_distance";
+      warning.pair = of_pair && warning.pair.empty() ? setup.pairs.front().name : warning.pair;
+    }
+  }
+  std::vector<ViewerFinding> news;
+  for (const ViewerFinding& warning : warnings_) {
+    const auto is_same = [&](const ViewerFinding& told) {
+      return told.pair == warning.pair && told.finding.message == warning.finding.message;
+    };
+    if (std::ranges::none_of(report_.findings, is_same)) {
+      news.push_back(warning);
+    }
+  }
+  report_.findings.insert(report_.findings.end(), news.begin(), news.end());
+  std::cerr << to_table(news);
 }
 
 }  // namespace app

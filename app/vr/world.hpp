@@ -63,9 +63,12 @@ class VrWorld {
   // How fast the head turns, and what reprojection by a frame's period (s) then gets wrong: into the report.
   void watch_reprojection(double time, const HeadAndViews& where, double period);
 
-  // What the person inside should know, before the first picture and again in the report. views_apart: m, between the
-  // headset's two views, as its lenses stand; the wearer's spectacles stand as the wearer's pupils would.
+  // What the person inside should know, before the first picture, with every other pair that is put on, and again in
+  // the report. views_apart: m, between the headset's two views, as its lenses stand; the wearer's spectacles stand as
+  // the wearer's pupils would.
   void warn(double views_apart);
+  // Of the pairs worn.
+  [[nodiscard]] const std::vector<ViewerFinding>& warnings() const { return warnings_; }
   // Of the picture placed last, for the person inside. rung_name: once the rungs are chosen. target_name: of what the
   // wearer chose to look at; empty: nothing.
   [[nodiscard]] const std::string& rung_name() const { return rungs_->rungs()[rung()].name; }
@@ -81,6 +84,7 @@ class VrWorld {
  private:
   void replay_place(const HeadAndViews& now);
   void show(const ShownPicture& picture);
+  void find_warnings();
   void count_picture(const std::string& source);
   [[nodiscard]] std::string pair_name() const;
   [[nodiscard]] std::string picture_text() const;
@@ -96,6 +100,9 @@ class VrWorld {
   std::optional<SessionRecorder> recorder_;
   ReprojectionWatch reprojection_;
   VrReport report_;
+  std::optional<double> views_apart_;   // m; nothing before the first picture
+  std::vector<std::size_t> warned_of_;  // the pairs of the warnings
+  std::vector<ViewerFinding> warnings_;
   double last_time_ = 0.0;                            // s, of the last frame
   std::chrono::steady_clock::time_point last_frame_;  // when that was
   double session_from_runtime_ = 0.0;                 // s, added to a runtime's time

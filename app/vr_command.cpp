@@ -19,10 +19,12 @@ using tracking::InputError;
 
 constexpr std::size_t kMostFurther = 16;  // each is compiled for before the first picture
 constexpr int kMostSamples = 1024, kMostFrames = 100'000'000;
+constexpr double kLongestWait_s = 86400.0;
 
 void check_options(const VrOptions& options) {
   check_picture_options(options.picture);
   check_range("--samples", options.samples, 1, kMostSamples, "");
+  check_range("--reconnect", options.reconnect_s, 0.0, kLongestWait_s, "s");
   if (options.frames) {
     check_range("--frames", *options.frames, 1, kMostFrames, "");
   }
@@ -93,6 +95,10 @@ Action add_vr_command(CLI::App& program) {
       ->check(CLI::IsMember({"auto", "local_floor", "stage", "local"}))
       ->capture_default_str();
   command->add_option("--frames", options->frames, "End after this many pictures [until the session ends]");
+  command
+      ->add_option("--reconnect", options->reconnect_s,
+                   "Seconds that a runtime which went away is waited for; the session and its recording then go on")
+      ->capture_default_str();
   auto* record = command->add_option("--record", options->record,
                                      "FILE.csv of poses, gaze, pupils and accommodation, a line a picture, and\n"
                                      "FILE.csv.json of views, rung, pair and events");
@@ -101,6 +107,8 @@ Action add_vr_command(CLI::App& program) {
                    "FILE.csv to draw from, a line a picture: a recording gives the same pictures on the same device")
       ->excludes(record);
   command->add_option("--screenshot", options->screenshot, "FILE.png of the last picture, left eye | right eye");
+  command->add_flag("--no-text", options->no_text,
+                    "Nothing to read in the headset; neither a recording nor a screenshot holds its text anyway");
   command->add_option("--device", options->device, "Checked only: the headset says which GPU it hangs on");
   command->add_flag("--json", options->json, "Print the numbers as JSON");
   return [options] { return run(*options); };

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -14,8 +15,22 @@
 namespace app {
 namespace {
 
+// A runtime after a lost one goes on with the images of the first.
+std::array<int, 2> size_of_images(const VrWorld& world, const xr::Instance& instance) {
+  const VrReport& report = world.report();
+  return report.width > 0 ? std::array{report.width, report.height}
+                          : size_of_images(world.options(), world.replay(), instance);
+}
+
 using Clock = std::chrono::steady_clock;
 using tracking::Side;
+
+// ms that this thread has had of a processor.
+double processor_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace
 
@@ -32,12 +47,14 @@ VrConnection::VrConnection(VrWorld& world, ControlSource more_controls)
       bindings_(instance_),
       gaze_actions_(instance_, bindings_),
       controls_(instance_, bindings_),
-      loop_(session_, {.space = space_of(world.options().space),
-                       .size = size_of_images(world.options(), world.replay(), instance_)}),
+      loop_(session_, {.space = space_of(world.options().space), .size = size_of_images(world, instance_)}),
       world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())) {
   bindings_.attach(session_);
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
   loop_.while_idle([this] { return !stop_if_wanted(); });
+  if (!world.options().no_text) {
+    text_.emplace(device_, session_, loop_);
+  }
   describe();
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
   const xr::GazeSupport gaze = gaze_actions_.support();
@@ -56,11 +73,11 @@ void VrConnection::describe() {
 }
 
 void VrConnection::show_frames() {
-  while (const auto frame = loop_.next()) {
+  while (const auto frame = next_frame()) {
     stop_if_wanted();
-    world_.note_time(xr::seconds(frame->display_time));
+    const double time = world_.session_time(xr::seconds(frame->display_time));
     if (frame->should_render && !world_.is_finished()) {
-      show(*frame);
+      show(*frame, time);
     } else {
       loop_.skip(*frame);
       ++world_.report().skipped;
@@ -70,6 +87,11 @@ void VrConnection::show_frames() {
       session_.request_exit();
     }
   }
+}
+
+std::optional<xr::Frame> VrConnection::next_frame() {
+  processor_before_ = processor_ms();
+  return loop_.next();
 }
 
 bool VrConnection::stop_if_wanted() {
@@ -84,6 +106,7 @@ bool VrConnection::stop_if_wanted() {
 void VrConnection::recentre(const tracking::Pose& world_from_space, const tracking::Pose& new_from_old) {
   world_.turned((world_from_space * new_from_old * world_from_space_.inverse()).orientation);
   world_from_space_ = world_from_space;
+  world_.head_was_moved();
   world_.record_event("recentred");
 }
 
@@ -102,7 +125,7 @@ void VrConnection::heed_controls(const xr::Frame& frame) {
   }
 }
 
-void VrConnection::place(const xr::Frame& frame) {
+void VrConnection::place(const xr::Frame& frame, double time) {
   if (frame.new_from_old) {
     recentre(world_from_space(world_.options().scene, world_.scene(), loop_.space().type()), *frame.new_from_old);
   }
@@ -113,7 +136,8 @@ void VrConnection::place(const xr::Frame& frame) {
     const auto i = static_cast<std::size_t>(side);
     where.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
   }
-  world_.place(xr::seconds(frame.display_time), where, gaze_input_->read(loop_.view_space(), frame.display_time));
+  world_.place(time, where, gaze_input_->read(loop_.view_space(), frame.display_time));
+  world_.watch_reprojection(time, where, xr::seconds(frame.period));
 }
 
 // Whatever the controls may ask for is compiled now, and what is shown first is made at every rung: no live frame waits
@@ -133,7 +157,7 @@ void VrConnection::prepare_pictures(const xr::Frame& frame) {
     pictures_->make({first, rung}, world_.wearer().wearing(first.pairs));
   }
   world_.report().guard_px = pictures_->guard_px({first, world_.rung()}).value_or(0);
-  prepared_ = true;
+  kernels_prepared_ = renderer_.kernels_made();
 }
 
 void VrConnection::wait_for_device() {
@@ -149,22 +173,28 @@ void VrConnection::wait_for_device() {
   world_.see_frame_time(done->key.shown, done->key.rung, seconds);
 }
 
-void VrConnection::show(const xr::Frame& frame) {
+void VrConnection::show(const xr::Frame& frame, double time) {
+  VrReport& report = world_.report();
+  report.period = xr::seconds(frame.period);
+  const auto since = [](Clock::time_point then) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
+  };
   Clock::time_point last = frame.woken;
   const auto mark = [&](const char* part) {
-    const auto now = Clock::now();
-    world_.report().host_part(part).add(std::chrono::duration<double, std::milli>(now - last).count());
-    last = now;
+    report.host_part(part).add(since(last));
+    last = Clock::now();
   };
   mark("locate");
   bindings_.sync(session_);
   world_.rungs().see_period(xr::seconds(frame.period));
-  place(frame);
+  place(frame, time);
   mark("place");
-  if (!prepared_) {
+  const bool is_first = !kernels_prepared_;
+  if (is_first) {
     prepare_pictures(frame);
     last = Clock::now();
   }
+  double processor = processor_ms() - processor_before_;
   wait_for_device();
   mark("device wait");
   const PictureKey key{world_.picture(), world_.rung()};
@@ -174,15 +204,29 @@ void VrConnection::show(const xr::Frame& frame) {
   }
   const std::array<std::uint32_t, 2> images = loop_.acquire();
   mark("image wait");
-  pictures_->start(key, world_.wearer().setup(), images);
+  const double processor_after_waits = processor_ms();
+  std::vector<const xr::Panel*> panels;
+  if (text_) {
+    text_->update(world_, frame);
+    panels.push_back(&text_->panel());
+  }
+  mark("text");
+  pictures_->start(key, world_.setup(), images);
   mark("submit");
-  loop_.show(frame);
+  const double to_submit = since(frame.woken);
+  loop_.show(frame, panels);
   mark("hand over");
-  ++world_.report().shown;
+  processor += processor_ms() - processor_after_waits;
+  if (!is_first) {  // it compiles and draws beforehand
+    report.wait_to_submit.add(to_submit);
+    report.frame_code.add(processor);
+  }
+  ++report.shown;
 }
 
 void VrConnection::finish() {
   wait_for_device();
+  world_.report().kernels_late += renderer_.kernels_made() - kernels_prepared_.value_or(renderer_.kernels_made());
   if (!world_.options().screenshot.empty()) {
     if (const auto picture = pictures_->read_picture()) {
       render::write_png(world_.options().screenshot, *picture);

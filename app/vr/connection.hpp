@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "app/vr/headset_text.hpp"
 #include "app/vr/pictures.hpp"
 #include "app/vr/world.hpp"
 #include "xr/actions.hpp"
@@ -30,9 +32,11 @@ class VrConnection {
 
  private:
   void describe();
+  std::optional<xr::Frame> next_frame();
   bool stop_if_wanted();
-  void show(const xr::Frame& frame);
-  void place(const xr::Frame& frame);
+  // time: s, the session's
+  void show(const xr::Frame& frame, double time);
+  void place(const xr::Frame& frame, double time);
   void heed_controls(const xr::Frame& frame);
   void recentre(const tracking::Pose& world_from_space, const tracking::Pose& new_from_old);
   void prepare_pictures(const xr::Frame& frame);
@@ -50,8 +54,10 @@ class VrConnection {
   std::unique_ptr<xr::GazeInput> gaze_input_;  // once the bindings are attached
   xr::FrameLoop loop_;
   tracking::Pose world_from_space_;
-  std::optional<Pictures> pictures_;  // once the rungs are known
-  bool prepared_ = false;
+  std::optional<Pictures> pictures_;             // once the rungs are known
+  std::optional<HeadsetText> text_;              // with --no-text there is none
+  std::optional<std::size_t> kernels_prepared_;  // once the pictures are
+  double processor_before_ = 0.0;                // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;
 };
 

@@ -1,5 +1,7 @@
 #include "app/vr/world.hpp"
 
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <iostream>
 
 #include "app/mode_option.hpp"
@@ -55,6 +57,27 @@ void VrWorld::record_event(const std::string& what) {
   }
 }
 
+double VrWorld::session_time(double runtime_time) {
+  if (runtime_time <= 0.0) {
+    return last_time_;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (is_new_clock_) {
+    session_from_runtime_ = last_time_ + std::chrono::duration<double>(now - last_frame_).count() - runtime_time;
+    is_new_clock_ = false;
+  }
+  last_time_ = runtime_time + session_from_runtime_;
+  last_frame_ = now;
+  return last_time_;
+}
+
+void VrWorld::runtime_returned() {
+  is_new_clock_ = true;
+  reprojection_.forget();
+  record_event("runtime returned");
+  ++report_.reconnections;
+}
+
 void VrWorld::choose_rungs(bool tracks_gaze) {
   if (!rungs_) {
     rungs_ = rung_choice(options_, replay_, tracks_gaze);
@@ -86,20 +109,34 @@ void VrWorld::see_frame_time(const ShownPicture& picture, std::size_t rung, doub
   }
 }
 
-void VrWorld::place(double time, const HeadAndViews& now, const std::optional<tracking::GazeSample>& sample) {
+void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking::GazeSample> sample) {
   if (replay_) {
     replay_place(now);
     return;
+  }
+  if (sample && sample->time) {
+    *sample->time += session_from_runtime_;
   }
   const HeadAndViews where = steadied(now, wearer_.views());
   show(shown_.picture());
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
   if (recorder_) {
-    recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where),
-                     rungs_->rungs()[rung()].name, pair_name(), recorded_picture(picture_));
+    recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where), rung_name(),
+                     pair_name(), recorded_picture(picture_));
   }
-  count_picture(source_text());
+  const bool at_target = wearer_.source() == tracking::GazeSource::target;
+  count_picture(gaze_source() + (at_target ? " " + target_name() : ""));
+}
+
+void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double period) {
+  if (replay_) {
+    return;  // that head was another day's
+  }
+  reprojection_.see(time, where.world_from_head);
+  const double error = reprojection_.error(setup().lenses, setup().pairs, wearer_.state().gaze, period);
+  report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
+  report_.reprojection_error.add(glm::degrees(error) * 60.0);
 }
 
 void VrWorld::replay_place(const HeadAndViews& now) {
@@ -117,7 +154,7 @@ void VrWorld::replay_place(const HeadAndViews& now) {
 void VrWorld::count_picture(const std::string& source) {
   ++report_.gaze_sources[source];
   ++report_.pictures[picture_text()];
-  ++report_.rungs[rungs_->rungs()[rung()].name];
+  ++report_.rungs[rung_name()];
   report_.rung_switches = rungs_->switches();
   report_.rung_reason = rungs_->reason();
 }
@@ -128,28 +165,18 @@ std::string VrWorld::pair_name() const {
 }
 
 std::string VrWorld::picture_text() const {
-  if (picture_.mode == shown_.base()) {
-    return pair_name();
+  if (const std::string map = map_name(); !map.empty()) {
+    return pair_name() + ", " + map + " map";
   }
-  const bool map = render::is_map(picture_.mode);
-  return pair_name() + ", " + mode_names()[static_cast<std::size_t>(picture_.mode)] + (map ? " map" : "");
+  return pair_name() + (picture_.mode == shown_.base() ? "" : ", clear view");
 }
 
-std::string VrWorld::source_text() const {
-  const tracking::GazeSource source = wearer_.source();
-  std::string text = tracking::name(source);
-  if (source == tracking::GazeSource::target && shown_.target()) {
-    text += " " + scene_.targets[*shown_.target()].name;
-  }
-  return text;
+std::string VrWorld::map_name() const {
+  return render::is_map(picture_.mode) ? mode_names()[static_cast<std::size_t>(picture_.mode)] : "";
 }
 
-std::vector<std::string> VrWorld::live_notes() const {
-  std::vector<std::string> notes{shown_.is_clear() ? "clear view" : picture_text(), "gaze: " + source_text()};
-  if (rungs_) {
-    notes.push_back("accuracy: " + rungs_->rungs()[rung()].name);
-  }
-  return notes;
+std::string VrWorld::target_name() const {
+  return shown_.target() ? scene_.targets[*shown_.target()].name : "";
 }
 
 void VrWorld::warn(double views_apart) {

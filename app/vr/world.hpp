@@ -2,6 +2,7 @@
 // is recorded or replayed, and the report. It knows no runtime, so it outlives any.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/vr/live_wearer.hpp"
 #include "app/vr/options.hpp"
 #include "app/vr/report.hpp"
+#include "app/vr/reprojection_watch.hpp"
 #include "app/vr/rungs.hpp"
 #include "app/vr/shown.hpp"
 
@@ -26,6 +28,17 @@ class VrWorld {
   [[nodiscard]] const render::Scene& scene() const { return scene_; }
   [[nodiscard]] const LiveWearer& wearer() const { return wearer_; }
   [[nodiscard]] VrReport& report() { return report_; }
+  [[nodiscard]] const VrReport& report() const { return report_; }
+
+  // With the pairs worn.
+  [[nodiscard]] const RenderSetup& setup() const { return wearer_.setup(); }
+
+  // Of the picture placed last: where its gaze comes from, as tracking::name has it, or "replay"; the name of the rung
+  // it is drawn at; the map that lies over it and the target that was chosen, empty for none.
+  [[nodiscard]] std::string gaze_source() const { return replay_ ? "replay" : tracking::name(wearer_.source()); }
+  [[nodiscard]] std::string rung_name() const { return rungs_->rungs()[rung()].name; }
+  [[nodiscard]] std::string map_name() const;
+  [[nodiscard]] std::string target_name() const;
 
   // As many pictures as were asked for have been shown.
   [[nodiscard]] bool is_finished() const;
@@ -41,8 +54,9 @@ class VrWorld {
   // The scene was turned about the head.
   void turned(const glm::dquat& new_from_old) { wearer_.turn_world(new_from_old); }
 
-  // Head and eyes of the picture to come, at its time (s) in the headset or as a replay has them.
-  void place(double time, const HeadAndViews& now, const std::optional<tracking::GazeSample>& sample);
+  // Head and eyes of the picture to come, at its time (s, the session's) in the headset or as a replay has them; the
+  // sample's time is the runtime's.
+  void place(double time, const HeadAndViews& now, std::optional<tracking::GazeSample> sample);
   // What that picture shows, and at which of the rungs.
   [[nodiscard]] const ShownPicture& picture() const { return picture_; }
   [[nodiscard]] std::size_t rung() const;
@@ -53,15 +67,20 @@ class VrWorld {
   // Every picture that may come.
   [[nodiscard]] std::vector<ShownPicture> reachable() const { return shown_.reachable(); }
 
+  // How fast the head turns, and what reprojection by a frame's period (s) then gets wrong: into the report.
+  void watch_reprojection(double time, const HeadAndViews& where, double period);
+  // Not by itself: the space it is seen in was recentred.
+  void head_was_moved() { reprojection_.forget(); }
+
   // What the person inside should know, before the first picture and again in the report. views_apart: m, between the
   // headset's two views, as its lenses stand; the wearer's spectacles stand as the wearer's pupils would.
   void warn(double views_apart);
-  // A line each for the person inside: what is worn and shown, where the gaze comes from, at what is looked, and how
-  // exactly it is drawn.
-  [[nodiscard]] std::vector<std::string> live_notes() const;
 
-  // Something is known of this moment (s), if only that nothing was shown.
-  void note_time(double time) { last_time_ = time; }
+  // From a runtime's time (s) to the session's, which is the first runtime's and goes on where another begins anew.
+  // To be asked for every frame; a frame without a time (0) has that of the last.
+  [[nodiscard]] double session_time(double runtime_time);
+  // The next frame's time is another runtime's.
+  void runtime_returned();
 
  private:
   void replay_place(const HeadAndViews& now);
@@ -69,7 +88,6 @@ class VrWorld {
   void count_picture(const std::string& source);
   [[nodiscard]] std::string pair_name() const;
   [[nodiscard]] std::string picture_text() const;
-  [[nodiscard]] std::string source_text() const;
 
   const VrOptions& options_;
   std::optional<SessionReplay> replay_;
@@ -79,8 +97,12 @@ class VrWorld {
   ShownPicture picture_;
   std::optional<RungChoice> rungs_;  // once it is known whether gaze is tracked
   std::optional<SessionRecorder> recorder_;
+  ReprojectionWatch reprojection_;
   VrReport report_;
-  double last_time_ = 0.0;  // s, of the last frame
+  double last_time_ = 0.0;                            // s, of the last frame
+  std::chrono::steady_clock::time_point last_frame_;  // when that was
+  double session_from_runtime_ = 0.0;                 // s, added to a runtime's time
+  bool is_new_clock_ = false;
 };
 
 }  // namespace app

@@ -159,7 +159,7 @@ void VrConnection::prepare_pictures(const xr::Frame& frame) {
     pictures_->make({first, rung}, world_.wearer().wearing(first.pairs));
   }
   world_.report().guard_px = pictures_->guard_px({first, world_.rung()}).value_or(0);
-  prepared_ = true;
+  kernels_prepared_ = renderer_.kernels_made();
 }
 
 void VrConnection::wait_for_device() {
@@ -191,7 +191,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   world_.rungs().see_period(xr::seconds(frame.period));
   place(frame, time);
   mark("place");
-  const bool is_first = !prepared_;
+  const bool is_first = !kernels_prepared_;
   if (is_first) {
     prepare_pictures(frame);
     last = Clock::now();
@@ -213,7 +213,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     panels.push_back(&text_->panel());
   }
   mark("text");
-  pictures_->start(key, world_.wearer().setup(), images);
+  pictures_->start(key, world_.setup(), images);
   mark("submit");
   const double to_submit = since(frame.woken);
   loop_.show(frame, panels);
@@ -232,6 +232,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
 
 void VrConnection::finish() {
   wait_for_device();
+  world_.report().kernels_late += renderer_.kernels_made() - kernels_prepared_.value_or(renderer_.kernels_made());
   if (!world_.options().screenshot.empty()) {
     if (const auto picture = pictures_->read_picture()) {
       render::write_png(world_.options().screenshot, *picture);

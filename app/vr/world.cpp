@@ -79,16 +79,6 @@ void VrWorld::runtime_returned() {
   ++report_.reconnections;
 }
 
-void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double period) {
-  if (replay_) {
-    return;  // that head was another day's
-  }
-  reprojection_.see(time, where.world_from_head);
-  const double error = reprojection_.error(wearer_.setup().lenses, wearer_.setup().pairs, wearer_.state().gaze, period);
-  report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
-  report_.reprojection_error.add(glm::degrees(error) * 60.0);
-}
-
 void VrWorld::choose_rungs(bool tracks_gaze) {
   if (!rungs_) {
     rungs_ = rung_choice(options_, replay_, tracks_gaze);
@@ -130,10 +120,10 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
     replay_place(now);
     return;
   }
-  const HeadAndViews where = steadied(now, wearer_.views());
   if (sample && sample->time) {
     *sample->time += session_from_runtime_;
   }
+  const HeadAndViews where = steadied(now, wearer_.views());
   show(shown_.picture());
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
@@ -144,7 +134,18 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
     recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where), rung_name(),
                      pair_name(), recorded_picture(picture_));
   }
-  count_picture(source_text());
+  const bool at_target = wearer_.source() == tracking::GazeSource::target;
+  count_picture(gaze_source() + (at_target ? " " + target_name() : ""));
+}
+
+void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double period) {
+  if (replay_) {
+    return;  // that head was another day's
+  }
+  reprojection_.see(time, where.world_from_head);
+  const double error = reprojection_.error(setup().lenses, setup().pairs, wearer_.state().gaze, period);
+  report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
+  report_.reprojection_error.add(glm::degrees(error) * 60.0);
 }
 
 void VrWorld::replay_place(const HeadAndViews& now) {
@@ -173,20 +174,14 @@ std::string VrWorld::pair_name() const {
 }
 
 std::string VrWorld::picture_text() const {
-  if (picture_.mode == shown_.base()) {
-    return pair_name();
+  if (const std::string map = map_name(); !map.empty()) {
+    return pair_name() + ", " + map + " map";
   }
-  const bool map = render::is_map(picture_.mode);
-  return pair_name() + ", " + mode_names()[static_cast<std::size_t>(picture_.mode)] + (map ? " map" : "");
+  return pair_name() + (picture_.mode == shown_.base() ? "" : ", clear view");
 }
 
-std::string VrWorld::source_text() const {
-  const tracking::GazeSource source = wearer_.source();
-  std::string text = tracking::name(source);
-  if (source == tracking::GazeSource::target) {
-    text += " " + target_name();
-  }
-  return text;
+std::string VrWorld::map_name() const {
+  return render::is_map(picture_.mode) ? mode_names()[static_cast<std::size_t>(picture_.mode)] : "";
 }
 
 std::string VrWorld::target_name() const {

@@ -288,6 +288,17 @@ std::vector<vk::StageTime> LiveFrame::wait() {
   return summed(state_->submission.wait());
 }
 
+ShownPictures LiveFrame::shown() const {
+  ShownPictures shown{.eyes = {},
+                      .width = state_->config.frame.width,
+                      .height = state_->config.frame.height,
+                      .blue_first = state_->config.blue_first};
+  for (std::size_t eye = 0; eye < state_->config.eyes; ++eye) {
+    shown.eyes.push_back(state_->blocks_of(eye));
+  }
+  return shown;
+}
+
 Image8 LiveFrame::read_picture(std::size_t eye) {
   State& s = *state_;
   (void)s.submission.wait();

@@ -30,8 +30,12 @@ struct VrReport {
   std::string runtime, headset, device, space;
   int width = 0, height = 0;  // of each eye's image
   int guard_px = 0;
-  double period = 0.0;                                 // s, of the display, as the runtime last gave it
-  std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
+  double period = 0.0;                      // s, of the display, as the runtime last gave it
+  std::map<std::string, int> gaze_sources;  // frames by where the gaze came from
+  std::map<std::string, int> pictures;      // frames by what was worn and shown
+  std::map<std::string, int> rungs;         // frames by how exactly they were drawn
+  int rung_switches = 0;
+  std::string rung_reason;                             // of the last
   std::vector<ViewerFinding> findings;                 // what the person inside should know
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order

@@ -60,12 +60,17 @@ class XScreen {
   }
 
   ~XScreen() {
+    thaw();
     connection_.reset();
     ::kill(server_, SIGTERM);
     ::waitpid(server_, nullptr, 0);
   }
   XScreen(const XScreen&) = delete;
   XScreen& operator=(const XScreen&) = delete;
+
+  // The server answers nobody, until thaw().
+  void freeze() const { ::kill(server_, SIGSTOP); }
+  void thaw() const { ::kill(server_, SIGCONT); }
 
   [[nodiscard]] xcb_connection_t* connection() const { return connection_.get(); }
   [[nodiscard]] xcb_window_t root() const {

@@ -37,7 +37,7 @@ NoticeContent content_of(const VrWorld& world, const std::vector<PlateLine>& lim
   content.rung = world.rung_name();
   content.map = world.map_name();
   content.target = world.target_name();
-  for (const ViewerFinding& found : world.report().findings) {
+  for (const ViewerFinding& found : world.warnings()) {
     content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
   }
   content.limits = limits;

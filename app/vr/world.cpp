@@ -1,8 +1,10 @@
 #include "app/vr/world.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iostream>
+#include <iterator>
 
 #include "app/mode_option.hpp"
 #include "app/option_values.hpp"
@@ -11,6 +13,8 @@
 
 namespace app {
 namespace {
+
+constexpr const char* kPrism = "vertical_prism";  // see lenses::Finding
 
 SceneOptions scene_options(const VrOptions& options) {
   SceneOptions scene = options.scene;
@@ -96,15 +100,19 @@ void VrWorld::show(const ShownPicture& picture) {
 }
 
 std::size_t VrWorld::rung() const {
-  return has_rungs(picture_) ? rungs_->rung() : 0;
+  return rungs_of(picture_) > 1 ? rungs_->rung() : 0;
 }
 
-bool VrWorld::has_rungs(const ShownPicture& picture) const {
-  return replay_ || picture.mode == shown_.base();
+std::size_t VrWorld::rungs_of(const ShownPicture& picture) const {
+  return replay_ || picture.mode == shown_.base() ? rungs_->rungs().size() : 1;
+}
+
+std::vector<ShownPicture> VrWorld::reachable() const {
+  return replay_ ? replayed_pictures(*replay_, shown_.picture()) : shown_.reachable();
 }
 
 void VrWorld::see_frame_time(const ShownPicture& picture, std::size_t rung, double seconds) {
-  if (has_rungs(picture)) {
+  if (rungs_of(picture) > 1) {
     rungs_->see(last_time_, rung, seconds);
   }
 }
@@ -121,6 +129,7 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
   show(shown_.picture());
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
+  watch_prism(time);
   if (recorder_) {
     recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where), rung_name(),
                      pair_name(), recorded_picture(picture_));
@@ -179,9 +188,40 @@ std::string VrWorld::target_name() const {
   return shown_.target() ? scene_.targets[*shown_.target()].name : "";
 }
 
+// Where several pairs are worn in turn, what one of them causes names it.
+std::vector<ViewerFinding> VrWorld::named(std::vector<ViewerFinding> findings) const {
+  const bool several = wearer_.all().pairs.size() > 2;  // and the eyes without
+  for (ViewerFinding& found : findings) {
+    if (several && found.pair.empty() && found.finding.code == kPrism) {
+      found.pair = setup().pairs.front().name;
+    }
+  }
+  return findings;
+}
+
+// Each pair's in the report once, at its first appearance.
+void VrWorld::watch_prism(double time) {
+  for (const ViewerFinding& found : prism_.see(time, named(prism_findings(setup())))) {
+    const auto same = [&](const ViewerFinding& known) {
+      return known.pair == found.pair && known.finding.code == found.finding.code;
+    };
+    if (std::ranges::none_of(report_.findings, same)) {
+      report_.findings.push_back(found);
+    }
+  }
+}
+
+std::vector<ViewerFinding> VrWorld::warnings() const {
+  std::vector<ViewerFinding> now;
+  std::ranges::copy_if(report_.findings, std::back_inserter(now),
+                       [](const ViewerFinding& found) { return found.finding.code != kPrism; });
+  now.insert(now.end(), prism_.current().begin(), prism_.current().end());
+  return now;
+}
+
 void VrWorld::warn(double views_apart) {
   const RenderSetup& setup = wearer_.setup();
-  report_.findings = viewer_report(setup);
+  report_.findings = named(viewer_report(setup));
   std::array<double, 2> power{};
   for (const std::size_t i : {0U, 1U}) {
     power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);

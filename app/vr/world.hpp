@@ -11,6 +11,7 @@
 #include "app/recording/session_replay.hpp"
 #include "app/vr/live_wearer.hpp"
 #include "app/vr/options.hpp"
+#include "app/vr/prism_watch.hpp"
 #include "app/vr/report.hpp"
 #include "app/vr/reprojection_watch.hpp"
 #include "app/vr/rungs.hpp"
@@ -39,6 +40,8 @@ class VrWorld {
   [[nodiscard]] std::string rung_name() const { return rungs_->rungs()[rung()].name; }
   [[nodiscard]] std::string map_name() const;
   [[nodiscard]] std::string target_name() const;
+  // What the person inside should know now.
+  [[nodiscard]] std::vector<ViewerFinding> warnings() const;
 
   // As many pictures as were asked for have been shown.
   [[nodiscard]] bool is_finished() const;
@@ -60,12 +63,12 @@ class VrWorld {
   // What that picture shows, and at which of the rungs.
   [[nodiscard]] const ShownPicture& picture() const { return picture_; }
   [[nodiscard]] std::size_t rung() const;
-  // Whether it is drawn at any rung; else at the first alone: maps and the clear view are always drawn in full.
-  [[nodiscard]] bool has_rungs(const ShownPicture& picture) const;
+  // At how many of them a picture may be drawn: maps and the clear view are always drawn in full, at the first.
+  [[nodiscard]] std::size_t rungs_of(const ShownPicture& picture) const;
   // What a picture took on the device (s), for the rungs of those to come.
   void see_frame_time(const ShownPicture& picture, std::size_t rung, double seconds);
   // Every picture that may come.
-  [[nodiscard]] std::vector<ShownPicture> reachable() const { return shown_.reachable(); }
+  [[nodiscard]] std::vector<ShownPicture> reachable() const;
 
   // How fast the head turns, and what reprojection by a frame's period (s) then gets wrong: into the report.
   void watch_reprojection(double time, const HeadAndViews& where, double period);
@@ -83,6 +86,8 @@ class VrWorld {
   void runtime_returned();
 
  private:
+  [[nodiscard]] std::vector<ViewerFinding> named(std::vector<ViewerFinding> findings) const;
+  void watch_prism(double time);
   void replay_place(const HeadAndViews& now);
   void show(const ShownPicture& picture);
   void count_picture(const std::string& source);
@@ -98,6 +103,7 @@ class VrWorld {
   std::optional<RungChoice> rungs_;  // once it is known whether gaze is tracked
   std::optional<SessionRecorder> recorder_;
   ReprojectionWatch reprojection_;
+  PrismWatch prism_;
   VrReport report_;
   double last_time_ = 0.0;                            // s, of the last frame
   std::chrono::steady_clock::time_point last_frame_;  // when that was

@@ -34,7 +34,7 @@ double processor_ms() {
 
 }  // namespace
 
-VrConnection::VrConnection(VrWorld& world, ControlSource more_controls)
+VrConnection::VrConnection(VrWorld& world, ControlSource more_controls, MirrorLink* mirror)
     : world_(world),
       more_controls_(std::move(more_controls)),
       instance_({.wanted_extensions = wanted_extensions()}),
@@ -56,6 +56,9 @@ VrConnection::VrConnection(VrWorld& world, ControlSource more_controls)
     text_.emplace(device_, session_, loop_);
   }
   describe();
+  if (mirror != nullptr) {
+    mirror_.emplace(*mirror, device_, std::array{world_.report().width, world_.report().height});
+  }
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
   const xr::GazeSupport gaze = gaze_actions_.support();
   world_.choose_rungs(gaze.per_eye || gaze.combined);
@@ -107,7 +110,6 @@ bool VrConnection::stop_if_wanted() {
 void VrConnection::recentre(const tracking::Pose& world_from_space, const tracking::Pose& new_from_old) {
   world_.turned((world_from_space * new_from_old * world_from_space_.inverse()).orientation);
   world_from_space_ = world_from_space;
-  world_.head_was_moved();
   world_.record_event("recentred");
 }
 
@@ -225,6 +227,10 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     report.frame_code.add(processor);
   }
   ++report.shown;
+  if (mirror_) {
+    mirror_->after_frame(pictures_->shown());
+    mark("mirror");
+  }
 }
 
 void VrConnection::finish() {

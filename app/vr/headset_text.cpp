@@ -28,22 +28,6 @@ double display_pixels_per_degree(const RenderSetup& setup, bool has_headset_file
                           : pixels_per_degree(display_width, fov.tan_left, fov.tan_right);
 }
 
-NoticeContent content_of(const VrWorld& world, const std::vector<PlateLine>& limits) {
-  NoticeContent content;
-  for (const WornPair& pair : world.setup().pairs) {
-    content.pairs.push_back(pair.name);
-  }
-  content.gaze_source = world.gaze_source();
-  content.rung = world.rung_name();
-  content.map = world.map_name();
-  content.target = world.target_name();
-  for (const ViewerFinding& found : world.warnings()) {
-    content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
-  }
-  content.limits = limits;
-  return content;
-}
-
 }  // namespace
 
 DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, const tracking::FieldOfView& fov,
@@ -56,6 +40,22 @@ DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, co
   limits.sunlit_pupil = lenses::pupil_diameter_in_light(kSunlitPage_cd_m2, kHeadsetField_deg2, true, setup.wearer.age);
   limits.viewer_known = setup.wearer.viewer[0] || setup.wearer.viewer[1];
   return limits;
+}
+
+NoticeContent notice_content(const VrWorld& world, const std::vector<PlateLine>& limits) {
+  NoticeContent content;
+  for (const WornPair& pair : world.setup().pairs) {
+    content.pairs.push_back(world.is_clear() ? "clear view" : pair.name);
+  }
+  content.gaze_source = world.gaze_source();
+  content.target = world.target_name();
+  content.rung = world.rung_name();
+  content.map = world.map_name();
+  for (const ViewerFinding& found : world.warnings()) {
+    content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
+  }
+  content.limits = limits;
+  return content;
 }
 
 HeadsetText::HeadsetText(const render::vk::Device& device, const xr::Session& session, const xr::FrameLoop& loop)
@@ -76,7 +76,7 @@ void HeadsetText::update(const VrWorld& world, const xr::Frame& frame) {
   if (limits_.empty()) {
     see_display(world, frame);
   }
-  const auto lines = notice_.step(xr::seconds(frame.display_time), content_of(world, limits_));
+  const auto lines = notice_.step(xr::seconds(frame.display_time), notice_content(world, limits_));
   if (!lines) {
     return;
   }

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iostream>
-#include <iterator>
 
 #include "app/mode_option.hpp"
 #include "app/option_values.hpp"
@@ -37,6 +36,7 @@ VrWorld::VrWorld(const VrOptions& options)
     rungs_ = rung_choice(options, replay_, false);
   }
   show(shown_.picture());
+  started_with_ = picture_.pairs;
 }
 
 bool VrWorld::is_finished() const {
@@ -88,6 +88,11 @@ void VrWorld::choose_rungs(bool tracks_gaze) {
   }
 }
 
+void VrWorld::turned(const glm::dquat& new_from_old) {
+  wearer_.turn_world(new_from_old);
+  reprojection_.forget();
+}
+
 void VrWorld::apply(xr::Control control) {
   if (!replay_ && shown_.apply(control)) {
     record_event(std::string(xr::name(control)));
@@ -130,6 +135,9 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
   watch_prism(time);
+  if (views_apart_ && picture_.pairs != warned_of_) {
+    find_warnings();
+  }
   if (recorder_) {
     recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where), rung_name(),
                      pair_name(), recorded_picture(picture_));
@@ -188,48 +196,63 @@ std::string VrWorld::target_name() const {
   return shown_.target() ? scene_.targets[*shown_.target()].name : "";
 }
 
-// Where several pairs are worn in turn, what one of them causes names it.
-std::vector<ViewerFinding> VrWorld::named(std::vector<ViewerFinding> findings) const {
-  const bool several = wearer_.all().pairs.size() > 2;  // and the eyes without
-  for (ViewerFinding& found : findings) {
-    if (several && found.pair.empty() && found.finding.code == kPrism) {
-      found.pair = setup().pairs.front().name;
-    }
-  }
-  return findings;
-}
-
-// Each pair's in the report once, at its first appearance.
-void VrWorld::watch_prism(double time) {
-  for (const ViewerFinding& found : prism_.see(time, named(prism_findings(setup())))) {
-    const auto same = [&](const ViewerFinding& known) {
-      return known.pair == found.pair && known.finding.code == found.finding.code;
-    };
-    if (std::ranges::none_of(report_.findings, same)) {
-      report_.findings.push_back(found);
-    }
-  }
-}
-
-std::vector<ViewerFinding> VrWorld::warnings() const {
-  std::vector<ViewerFinding> now;
-  std::ranges::copy_if(report_.findings, std::back_inserter(now),
-                       [](const ViewerFinding& found) { return found.finding.code != kPrism; });
-  now.insert(now.end(), prism_.current().begin(), prism_.current().end());
-  return now;
-}
-
 void VrWorld::warn(double views_apart) {
+  views_apart_ = views_apart;
+  find_warnings();
+}
+
+void VrWorld::find_warnings() {
   const RenderSetup& setup = wearer_.setup();
-  report_.findings = named(viewer_report(setup));
+  warned_of_ = picture_.pairs;
+  warnings_ = viewer_report(setup);
+  std::erase_if(warnings_, [](const ViewerFinding& found) { return found.finding.code == kPrism; });  // watched live
   std::array<double, 2> power{};
   for (const std::size_t i : {0U, 1U}) {
     power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);
   }
-  if (const auto finding = lenses::distance_finding(setup.wearer, views_apart, power)) {
-    report_.findings.push_back({"", *finding});
+  if (const auto finding = lenses::distance_finding(setup.wearer, *views_apart_, power)) {
+    warnings_.push_back({"", *finding});
   }
-  std::cerr << to_table(report_.findings);
+  name_pair(warnings_);
+  tell(warnings_);
+}
+
+void VrWorld::watch_prism(double time) {
+  std::vector<ViewerFinding> found = prism_findings(setup());
+  name_pair(found);
+  tell(prism_.see(time, found));
+}
+
+std::vector<ViewerFinding> VrWorld::warnings() const {
+  std::vector<ViewerFinding> now = warnings_;
+  now.insert(now.end(), prism_.current().begin(), prism_.current().end());
+  return now;
+}
+
+// The pair that the session was started with needs no name.
+void VrWorld::name_pair(std::vector<ViewerFinding>& findings) const {
+  for (ViewerFinding& found : findings) {
+    const bool of_pair = found.finding.code == kPrism || found.finding.code == "pupillary_distance";
+    if (of_pair && found.pair.empty() && picture_.pairs != started_with_) {
+      found.pair = setup().pairs.front().name;
+    }
+  }
+}
+
+// Into the report once. A prism changes with every glance: the first that is found stands for its pair.
+void VrWorld::tell(const std::vector<ViewerFinding>& findings) {
+  std::vector<ViewerFinding> news;
+  for (const ViewerFinding& found : findings) {
+    const auto is_same = [&](const ViewerFinding& told) {
+      return told.pair == found.pair && told.finding.code == found.finding.code &&
+             (found.finding.code == kPrism || told.finding.message == found.finding.message);
+    };
+    if (std::ranges::none_of(report_.findings, is_same)) {
+      news.push_back(found);
+    }
+  }
+  report_.findings.insert(report_.findings.end(), news.begin(), news.end());
+  std::cerr << to_table(news);
 }
 
 }  // namespace app

@@ -40,8 +40,6 @@ class VrWorld {
   [[nodiscard]] std::string rung_name() const { return rungs_->rungs()[rung()].name; }
   [[nodiscard]] std::string map_name() const;
   [[nodiscard]] std::string target_name() const;
-  // What the person inside should know now.
-  [[nodiscard]] std::vector<ViewerFinding> warnings() const;
 
   // As many pictures as were asked for have been shown.
   [[nodiscard]] bool is_finished() const;
@@ -55,7 +53,7 @@ class VrWorld {
   // What the wearer's hands ask for, but for recentring, which is for whoever knows where the head is.
   void apply(xr::Control control);
   // The scene was turned about the head.
-  void turned(const glm::dquat& new_from_old) { wearer_.turn_world(new_from_old); }
+  void turned(const glm::dquat& new_from_old);
 
   // Head and eyes of the picture to come, at its time (s, the session's) in the headset or as a replay has them; the
   // sample's time is the runtime's.
@@ -72,12 +70,14 @@ class VrWorld {
 
   // How fast the head turns, and what reprojection by a frame's period (s) then gets wrong: into the report.
   void watch_reprojection(double time, const HeadAndViews& where, double period);
-  // Not by itself: the space it is seen in was recentred.
-  void head_was_moved() { reprojection_.forget(); }
 
-  // What the person inside should know, before the first picture and again in the report. views_apart: m, between the
-  // headset's two views, as its lenses stand; the wearer's spectacles stand as the wearer's pupils would.
+  // What the person inside should know, before the first picture, with every other pair that is put on, and again in
+  // the report. views_apart: m, between the headset's two views, as its lenses stand; the wearer's spectacles stand as
+  // the wearer's pupils would.
   void warn(double views_apart);
+  // Of the pairs worn, and of where the eyes look now.
+  [[nodiscard]] std::vector<ViewerFinding> warnings() const;
+  [[nodiscard]] bool is_clear() const { return shown_.is_clear(); }
 
   // From a runtime's time (s) to the session's, which is the first runtime's and goes on where another begins anew.
   // To be asked for every frame; a frame without a time (0) has that of the last.
@@ -86,10 +86,12 @@ class VrWorld {
   void runtime_returned();
 
  private:
-  [[nodiscard]] std::vector<ViewerFinding> named(std::vector<ViewerFinding> findings) const;
   void watch_prism(double time);
+  void name_pair(std::vector<ViewerFinding>& findings) const;
+  void tell(const std::vector<ViewerFinding>& findings);
   void replay_place(const HeadAndViews& now);
   void show(const ShownPicture& picture);
+  void find_warnings();
   void count_picture(const std::string& source);
   [[nodiscard]] std::string pair_name() const;
   [[nodiscard]] std::string picture_text() const;
@@ -105,6 +107,10 @@ class VrWorld {
   ReprojectionWatch reprojection_;
   PrismWatch prism_;
   VrReport report_;
+  std::optional<double> views_apart_;      // m; nothing before the first picture
+  std::vector<std::size_t> started_with_;  // pairs
+  std::vector<std::size_t> warned_of_;     // the pairs of the warnings
+  std::vector<ViewerFinding> warnings_;
   double last_time_ = 0.0;                            // s, of the last frame
   std::chrono::steady_clock::time_point last_frame_;  // when that was
   double session_from_runtime_ = 0.0;                 // s, added to a runtime's time

@@ -24,12 +24,20 @@ std::vector<ViewerFinding> viewer_report(const RenderSetup& setup) {
   for (const lenses::Finding& finding : lenses::viewer_findings(setup.wearer, *setup.headset)) {
     report.push_back({"", finding});
   }
-  for (const WornPair& pair : setup.pairs) {
-    if (const auto finding = lenses::vertical_prism_finding(sight_of(pair))) {
-      report.push_back({setup.pairs.size() > 1 ? pair.name : "", *finding});
-    }
+  for (const ViewerFinding& finding : prism_findings(setup)) {
+    report.push_back(finding);
   }
   return report;
+}
+
+std::vector<ViewerFinding> prism_findings(const RenderSetup& setup) {
+  std::vector<ViewerFinding> findings;
+  for (const WornPair& pair : setup.pairs) {
+    if (const auto finding = lenses::vertical_prism_finding(sight_of(pair))) {
+      findings.push_back({setup.pairs.size() > 1 ? pair.name : "", *finding});
+    }
+  }
+  return findings;
 }
 
 std::string to_table(const std::vector<ViewerFinding>& findings) {

@@ -16,6 +16,8 @@ struct ViewerFinding {
   lenses::Finding finding;
 };
 [[nodiscard]] std::vector<ViewerFinding> viewer_report(const RenderSetup& setup);
+// Of these, what depends on where the eyes look now: the vertical prism of each pair.
+[[nodiscard]] std::vector<ViewerFinding> prism_findings(const RenderSetup& setup);
 
 // A line each, "warning: ...".
 [[nodiscard]] std::string to_table(const std::vector<ViewerFinding>& findings);

@@ -63,6 +63,7 @@ VrConnection::VrConnection(VrWorld& world, ControlSource more_controls, MirrorLi
   const xr::GazeSupport gaze = gaze_actions_.support();
   world_.choose_rungs(gaze.per_eye || gaze.combined);
   pictures_.emplace(renderer_, loop_, world.options(), world.rungs().rungs());
+  compile_pictures();
 }
 
 void VrConnection::describe() {
@@ -142,24 +143,26 @@ void VrConnection::place(const xr::Frame& frame, double time) {
   world_.watch_reprojection(time, where, xr::seconds(frame.period));
 }
 
-// Whatever the controls may ask for is compiled now, and what is shown first is made at every rung: no live frame waits
-// for a compiler, and a change of rung for nothing at all.
-void VrConnection::prepare_pictures(const xr::Frame& frame) {
-  world_.warn(glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position));
-  const std::size_t rungs = world_.rungs().rungs().size();
-  if (!world_.replay()) {
-    for (const ShownPicture& shown : world_.reachable()) {
-      for (std::size_t rung = 0; rung < (world_.has_rungs(shown) ? rungs : 1); ++rung) {
-        pictures_->prepare({shown, rung}, world_.wearer().wearing(shown.pairs));
-      }
+// Before the session begins, which waits for no application: whatever the controls may ask for.
+void VrConnection::compile_pictures() {
+  for (const ShownPicture& shown : world_.reachable()) {
+    const RenderSetup setup = world_.wearer().wearing(shown.pairs);
+    for (std::size_t rung = 0; rung < world_.rungs_of(shown); ++rung) {
+      pictures_->prepare({shown, rung}, setup);
     }
   }
+  kernels_prepared_ = renderer_.kernels_made();
+}
+
+// What is shown first is made at every rung, so that a change of rung waits for nothing at all.
+void VrConnection::make_first_pictures(const xr::Frame& frame) {
+  world_.warn(glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position));
   const ShownPicture& first = world_.picture();
-  for (std::size_t rung = 0; rung < (world_.has_rungs(first) ? rungs : 1); ++rung) {
+  for (std::size_t rung = 0; rung < world_.rungs_of(first); ++rung) {
     pictures_->make({first, rung}, world_.wearer().wearing(first.pairs));
   }
   world_.report().guard_px = pictures_->guard_px({first, world_.rung()}).value_or(0);
-  kernels_prepared_ = renderer_.kernels_made();
+  has_pictures_ = true;
 }
 
 void VrConnection::wait_for_device() {
@@ -191,9 +194,9 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   world_.rungs().see_period(xr::seconds(frame.period));
   place(frame, time);
   mark("place");
-  const bool is_first = !kernels_prepared_;
+  const bool is_first = !has_pictures_;
   if (is_first) {
-    prepare_pictures(frame);
+    make_first_pictures(frame);
     last = Clock::now();
   }
   double processor = processor_ms() - processor_before_;
@@ -232,7 +235,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
 
 void VrConnection::finish() {
   wait_for_device();
-  world_.report().kernels_late += renderer_.kernels_made() - kernels_prepared_.value_or(renderer_.kernels_made());
+  world_.report().kernels_late += renderer_.kernels_made() - kernels_prepared_;
   if (!world_.options().screenshot.empty()) {
     if (const auto picture = pictures_->read_picture()) {
       render::write_png(world_.options().screenshot, *picture);

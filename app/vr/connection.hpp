@@ -41,7 +41,8 @@ class VrConnection {
   void place(const xr::Frame& frame, double time);
   void heed_controls(const xr::Frame& frame);
   void recentre(const tracking::Pose& world_from_space, const tracking::Pose& new_from_old);
-  void prepare_pictures(const xr::Frame& frame);
+  void compile_pictures();
+  void make_first_pictures(const xr::Frame& frame);
   void wait_for_device();
 
   VrWorld& world_;
@@ -59,8 +60,9 @@ class VrConnection {
   std::optional<Pictures> pictures_;  // once the rungs are known
   std::optional<HeadsetText> text_;   // with --no-text there is none
   std::optional<MirrorFeed> mirror_;
-  std::optional<std::size_t> kernels_prepared_;  // once the pictures are
-  double processor_before_ = 0.0;                // ms of this thread, before the frame was waited for
+  std::size_t kernels_prepared_ = 0;
+  bool has_pictures_ = false;
+  double processor_before_ = 0.0;  // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;
 };
 

@@ -56,6 +56,20 @@ void check_pictures(const SessionReplay& replay, std::size_t pairs) {
   }
 }
 
+std::vector<ShownPicture> replayed_pictures(const SessionReplay& replay, const ShownPicture& otherwise) {
+  if (!replay.record() || replay.record()->shown.empty()) {
+    return {otherwise};
+  }
+  std::vector<ShownPicture> all;
+  for (const ShownChange& change : replay.record()->shown) {
+    const ShownPicture picture{change.pairs, mode_of(change.picture)};
+    if (std::ranges::find(all, picture) == all.end()) {
+      all.push_back(picture);
+    }
+  }
+  return all;
+}
+
 std::optional<ShownPicture> replayed_picture(const SessionReplay::Frame& frame) {
   if (frame.shown == nullptr) {
     return std::nullopt;

@@ -23,6 +23,9 @@ namespace app {
 // `pairs`, modes that there are not.
 void check_pictures(const SessionReplay& replay, std::size_t pairs);
 
+// Each picture of the recording once; `otherwise` where it does not say.
+[[nodiscard]] std::vector<ShownPicture> replayed_pictures(const SessionReplay& replay, const ShownPicture& otherwise);
+
 // What is in view in a recorded frame; nothing: the recording does not say.
 [[nodiscard]] std::optional<ShownPicture> replayed_picture(const SessionReplay::Frame& frame);
 

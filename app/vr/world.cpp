@@ -13,6 +13,8 @@
 namespace app {
 namespace {
 
+constexpr const char* kPrism = "vertical_prism";  // see lenses::Finding
+
 SceneOptions scene_options(const VrOptions& options) {
   SceneOptions scene = options.scene;
   scene.in_headset = true;
@@ -34,6 +36,7 @@ VrWorld::VrWorld(const VrOptions& options)
     rungs_ = rung_choice(options, replay_, false);
   }
   show(shown_.picture());
+  started_with_ = picture_.pairs;
 }
 
 bool VrWorld::is_finished() const {
@@ -102,15 +105,19 @@ void VrWorld::show(const ShownPicture& picture) {
 }
 
 std::size_t VrWorld::rung() const {
-  return has_rungs(picture_) ? rungs_->rung() : 0;
+  return rungs_of(picture_) > 1 ? rungs_->rung() : 0;
 }
 
-bool VrWorld::has_rungs(const ShownPicture& picture) const {
-  return replay_ || picture.mode == shown_.base();
+std::size_t VrWorld::rungs_of(const ShownPicture& picture) const {
+  return replay_ || picture.mode == shown_.base() ? rungs_->rungs().size() : 1;
+}
+
+std::vector<ShownPicture> VrWorld::reachable() const {
+  return replay_ ? replayed_pictures(*replay_, shown_.picture()) : shown_.reachable();
 }
 
 void VrWorld::see_frame_time(const ShownPicture& picture, std::size_t rung, double seconds) {
-  if (has_rungs(picture)) {
+  if (rungs_of(picture) > 1) {
     rungs_->see(last_time_, rung, seconds);
   }
 }
@@ -127,6 +134,7 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
   show(shown_.picture());
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
+  watch_prism(time);
   if (views_apart_ && picture_.pairs != warned_of_) {
     find_warnings();
   }
@@ -195,9 +203,9 @@ void VrWorld::warn(double views_apart) {
 
 void VrWorld::find_warnings() {
   const RenderSetup& setup = wearer_.setup();
-  const bool is_first = warned_of_.empty();
   warned_of_ = picture_.pairs;
   warnings_ = viewer_report(setup);
+  std::erase_if(warnings_, [](const ViewerFinding& found) { return found.finding.code == kPrism; });  // watched live
   std::array<double, 2> power{};
   for (const std::size_t i : {0U, 1U}) {
     power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);
@@ -205,19 +213,42 @@ void VrWorld::find_warnings() {
   if (const auto finding = lenses::distance_finding(setup.wearer, *views_apart_, power)) {
     warnings_.push_back({"", *finding});
   }
-  if (!is_first) {  // the first pair is the one that the session was started with
-    for (ViewerFinding& warning : warnings_) {
-      const bool of_pair = warning.finding.code == "vertical_prism" || warning.finding.code == "pupillary_distance";
-      warning.pair = of_pair && warning.pair.empty() ? setup.pairs.front().name : warning.pair;
+  name_pair(warnings_);
+  tell(warnings_);
+}
+
+void VrWorld::watch_prism(double time) {
+  std::vector<ViewerFinding> found = prism_findings(setup());
+  name_pair(found);
+  tell(prism_.see(time, found));
+}
+
+std::vector<ViewerFinding> VrWorld::warnings() const {
+  std::vector<ViewerFinding> now = warnings_;
+  now.insert(now.end(), prism_.current().begin(), prism_.current().end());
+  return now;
+}
+
+// The pair that the session was started with needs no name.
+void VrWorld::name_pair(std::vector<ViewerFinding>& findings) const {
+  for (ViewerFinding& found : findings) {
+    const bool of_pair = found.finding.code == kPrism || found.finding.code == "pupillary_distance";
+    if (of_pair && found.pair.empty() && picture_.pairs != started_with_) {
+      found.pair = setup().pairs.front().name;
     }
   }
+}
+
+// Into the report once. A prism changes with every glance: the first that is found stands for its pair.
+void VrWorld::tell(const std::vector<ViewerFinding>& findings) {
   std::vector<ViewerFinding> news;
-  for (const ViewerFinding& warning : warnings_) {
+  for (const ViewerFinding& found : findings) {
     const auto is_same = [&](const ViewerFinding& told) {
-      return told.pair == warning.pair && told.finding.message == warning.finding.message;
+      return told.pair == found.pair && told.finding.code == found.finding.code &&
+             (found.finding.code == kPrism || told.finding.message == found.finding.message);
     };
     if (std::ranges::none_of(report_.findings, is_same)) {
-      news.push_back(warning);
+      news.push_back(found);
     }
   }
   report_.findings.insert(report_.findings.end(), news.begin(), news.end());

@@ -11,6 +11,7 @@
 #include "app/recording/session_replay.hpp"
 #include "app/vr/live_wearer.hpp"
 #include "app/vr/options.hpp"
+#include "app/vr/prism_watch.hpp"
 #include "app/vr/report.hpp"
 #include "app/vr/reprojection_watch.hpp"
 #include "app/vr/rungs.hpp"
@@ -60,12 +61,12 @@ class VrWorld {
   // What that picture shows, and at which of the rungs.
   [[nodiscard]] const ShownPicture& picture() const { return picture_; }
   [[nodiscard]] std::size_t rung() const;
-  // Whether it is drawn at any rung; else at the first alone: maps and the clear view are always drawn in full.
-  [[nodiscard]] bool has_rungs(const ShownPicture& picture) const;
+  // At how many of them a picture may be drawn: maps and the clear view are always drawn in full, at the first.
+  [[nodiscard]] std::size_t rungs_of(const ShownPicture& picture) const;
   // What a picture took on the device (s), for the rungs of those to come.
   void see_frame_time(const ShownPicture& picture, std::size_t rung, double seconds);
   // Every picture that may come.
-  [[nodiscard]] std::vector<ShownPicture> reachable() const { return shown_.reachable(); }
+  [[nodiscard]] std::vector<ShownPicture> reachable() const;
 
   // How fast the head turns, and what reprojection by a frame's period (s) then gets wrong: into the report.
   void watch_reprojection(double time, const HeadAndViews& where, double period);
@@ -74,8 +75,8 @@ class VrWorld {
   // the report. views_apart: m, between the headset's two views, as its lenses stand; the wearer's spectacles stand as
   // the wearer's pupils would.
   void warn(double views_apart);
-  // Of the pairs worn.
-  [[nodiscard]] const std::vector<ViewerFinding>& warnings() const { return warnings_; }
+  // Of the pairs worn, and of where the eyes look now.
+  [[nodiscard]] std::vector<ViewerFinding> warnings() const;
   [[nodiscard]] bool is_clear() const { return shown_.is_clear(); }
 
   // From a runtime's time (s) to the session's, which is the first runtime's and goes on where another begins anew.
@@ -85,6 +86,9 @@ class VrWorld {
   void runtime_returned();
 
  private:
+  void watch_prism(double time);
+  void name_pair(std::vector<ViewerFinding>& findings) const;
+  void tell(const std::vector<ViewerFinding>& findings);
   void replay_place(const HeadAndViews& now);
   void show(const ShownPicture& picture);
   void find_warnings();
@@ -101,9 +105,11 @@ class VrWorld {
   std::optional<RungChoice> rungs_;  // once it is known whether gaze is tracked
   std::optional<SessionRecorder> recorder_;
   ReprojectionWatch reprojection_;
+  PrismWatch prism_;
   VrReport report_;
-  std::optional<double> views_apart_;   // m; nothing before the first picture
-  std::vector<std::size_t> warned_of_;  // the pairs of the warnings
+  std::optional<double> views_apart_;      // m; nothing before the first picture
+  std::vector<std::size_t> started_with_;  // pairs
+  std::vector<std::size_t> warned_of_;     // the pairs of the warnings
   std::vector<ViewerFinding> warnings_;
   double last_time_ = 0.0;                            // s, of the last frame
   std::chrono::steady_clock::time_point last_frame_;  // when that was

@@ -94,7 +94,9 @@ TEST_F(VrControls, KeysChangeThePictureAndAReplayShowsItAgain) {
   again.frames.reset();
   again.replay = live.record;
   again.screenshot = file("again.png");
-  EXPECT_EQ(app::run_vr(again).shown, 14);
+  const app::VrReport replayed = app::run_vr(again);
+  EXPECT_EQ(replayed.shown, 14);
+  EXPECT_EQ(replayed.kernels_late, 0U);
   EXPECT_EQ(text_of(again.screenshot), text_of(live.screenshot));
 
   again.scene.further.clear();

@@ -10,6 +10,7 @@
 #include "shaders/between.hpp"
 #include "shaders/blur.hpp"
 #include "shaders/blur_layers.hpp"
+#include "shaders/blur_levels.hpp"
 #include "shaders/blur_reach.hpp"
 #include "shaders/blur_squares.hpp"
 #include "shaders/blur_tiles.hpp"
@@ -104,23 +105,26 @@ Recipe recipe_of(Stage stage) {
     case Stage::blur:
       return {"blur",
               shaders::blur,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, texel_rg32ui},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, storage_buffer},
               Constants::blur};
     case Stage::blur_squares:
       return {"blur_squares",
               shaders::blur_squares,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, storage_buffer},
               Constants::blur};
     case Stage::blur_tiles:
       return {"blur_tiles",
               shaders::blur_tiles,
-              {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer, storage_buffer},
+              {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer},
               Constants::blur};
     case Stage::blur_reach:
-      return {"blur_reach",
-              shaders::blur_reach,
-              {texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer, texel_r32ui},
-              Constants::blur};
+      return {
+          "blur_reach",
+          shaders::blur_reach,
+          {texel_rgba32ui, texel_rgba32f, storage_buffer, texel_r32ui, storage_buffer, storage_buffer, storage_buffer},
+          Constants::blur};
+    case Stage::blur_levels:
+      return {"blur_levels", shaders::blur_levels, {texel_rgba32ui, storage_buffer, storage_buffer}, Constants::blur};
     case Stage::blur_layers:
       return {"blur_layers",
               shaders::blur_layers,

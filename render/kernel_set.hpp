@@ -28,6 +28,7 @@ enum class Stage : std::uint32_t {
   samples,
   blur_tiles,
   blur_reach,
+  blur_levels,
   blur_squares,
   blur,
   blur_layers,

@@ -1,12 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Approximate defocus where all that a blur reaches lies at one depth: the mean over the pixel's own ellipse.
+// Approximate defocus in the listed tiles, where all that a blur reaches lies at one depth: the mean over the pixel's
+// own ellipse.
 #include "render/shaders/gather.glsl"
 #include "render/shaders/blurred_out.glsl"
 
 layout(binding = 2) uniform usamplerBuffer levels;
-layout(binding = 3) uniform usamplerBuffer reaches;
-layout(binding = 4) uniform usamplerBuffer squares;
+layout(binding = 3) uniform usamplerBuffer squares;
+layout(std430, binding = 4) readonly buffer List { uint list[]; };
 
 #include "render/shaders/disc_gather.glsl"
 
@@ -54,24 +55,20 @@ vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
 }
 
 void main() {
-  ivec2 p = pixel_in_picture();
   ivec2 size = frame.size.xy;
-  if (p.x >= size.x || p.y >= size.y) {
-    return;
-  }
   int base = frame.view.x * size.x * size.y;
-  Tap centre = tap_at(base + p.y * size.x + p.x);
-  vec3 mean = centre.radiance;
-  if (kTaps != 0) {
-    ivec2 tile = p / kBlurTile;
-    if (TILE_REACH(tile).x >= 0.0) {
-      return;  // has layers
+  for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
+    ivec2 p = listed_pixel(list[kListFirstAt + i]);
+    if (p.x >= size.x || p.y >= size.y) {
+      continue;
     }
+    Tap centre = tap_at(base + p.y * size.x + p.x);
     float reach = major(centre.ellipse);
-    // The rim stays where it is, and what is in focus stays as it is, to the bit.
+    vec3 mean = centre.radiance;
+    // The rim stays where it is, and what is in focus stays as it is.
     if (centre.depth >= 0.0 && reach >= frame.limits.x) {
       mean = reach < 1.0 ? small_blur(centre, p, base) : gathered_blur(centre, reach, p, base);
     }
+    leave_blurred(base + p.y * size.x + p.x, mean);
   }
-  leave_blurred(base + p.y * size.x + p.x, mean);
 }

@@ -145,9 +145,7 @@ void main() {
   ivec2 size = frame.size.xy;
   int base = frame.view.x * size.x * size.y;
   for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
-    int item = int(list[kListFirstAt + i]);
-    ivec2 tile = ivec2(item % tile_count().x, item / tile_count().x);
-    ivec2 p = kBlurTile * tile + ivec2(gl_LocalInvocationID.xy);
+    ivec2 p = listed_pixel(list[kListFirstAt + i]);
     if (p.x >= size.x || p.y >= size.y) {
       continue;
     }
@@ -156,7 +154,7 @@ void main() {
     if (centre.depth >= 0.0) {
       float reach = major(centre.ellipse);
       float here = nearness(centre.depth);
-      vec2 before_tile = TILE_REACH(tile);
+      vec2 before_tile = TILE_REACH(p / kBlurTile);
       // The nearest itself has nothing in front of it.
       float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
       vec4 before = vec4(0.0);

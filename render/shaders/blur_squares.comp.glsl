@@ -1,22 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Wide blurs of one depth once for each square of 2 pixels; the blur stage interpolates between squares.
+// Wide blurs of one depth once for each square of 2 pixels; the blur stage interpolates between squares. A workgroup
+// takes kSquaredTiles listed tiles.
 #include "render/shaders/gather.glsl"
 
 layout(std430, binding = 1) writeonly buffer Squares { uvec2 squares[]; };
 layout(binding = 2) uniform usamplerBuffer levels;
 layout(binding = 3) uniform usamplerBuffer reaches;
+layout(std430, binding = 4) readonly buffer List { uint list[]; };
 
 #include "render/shaders/disc_gather.glsl"
 
-void main() {
-  ivec2 square = pixel_in_picture();
+void gather_square(ivec2 tile, ivec2 square) {
   int width = blur_level_width(tile_count(), 1);
-  if (2 * square.x >= frame.size.x || 2 * square.y >= frame.size.y) {
-    return;
-  }
   int base = frame.view.x * frame.size.x * frame.size.y;
-  ivec2 tile = 2 * square / kBlurTile;
   float least = 1e30;
   vec3 ellipse = vec3(0.0);
   for (int k = 0; k < 4; ++k) {
@@ -37,4 +34,20 @@ void main() {
   vec3 mean = sum.rgb / max(sum.a, 1e-6);
   squares[square.y * width + square.x] =
       uvec2(packHalf2x16(mean.rg), packHalf2x16(vec2(mean.b, sum.a > 0.0 ? 1.0 : 0.0)));
+}
+
+void main() {
+  const int side = kBlurTile / 2;
+  int lane = int(gl_LocalInvocationIndex);
+  for (uint i = kSquaredTiles * gl_WorkGroupID.x; i < list[kListCountAt]; i += kSquaredTiles * gl_NumWorkGroups.x) {
+    uint place = i + uint(lane / (side * side));
+    if (place < list[kListCountAt]) {
+      int item = int(list[kListFirstAt + place]);
+      ivec2 tile = ivec2(item % tile_count().x, item / tile_count().x);
+      ivec2 square = side * tile + ivec2(lane % side, lane / side % side);
+      if (all(lessThan(2 * square, frame.size.xy))) {
+        gather_square(tile, square);
+      }
+    }
+  }
 }

@@ -65,6 +65,19 @@ float major(vec3 s) { return 0.5 * (s.x + s.z) + sqrt(0.25 * (s.x - s.z) * (s.x 
 
 ivec2 tile_count() { return (frame.size.xy + kBlurTile - 1) / kBlurTile; }
 
+// The invocation's pixel of a listed tile.
+ivec2 listed_pixel(uint item) {
+  int columns = tile_count().x;
+  ivec2 tile = ivec2(int(item) % columns, int(item) / columns);
+  return kBlurTile * tile + ivec2(gl_LocalInvocationID.xy);
+}
+
+// The least major semi-axis that has a use for means over squares (level_of, kWideBlur).
+float least_wide() {
+  float least = sqrt(2.0 * float(max(kTaps, 1)) / kPi);
+  return kRate > 1 ? min(least, kWideBlur) : least;
+}
+
 // An ellipse whose second moments are less by `variance` (px^2) along every direction: what the taps' own size adds.
 vec3 shrunk(vec3 s, float variance) {
   float a = major(s);

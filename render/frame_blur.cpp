@@ -63,6 +63,7 @@ void FrameJob::empty_blur_lists(vk::Commands& commands) {
   commands.update(out_.blur_wide, std::as_bytes(std::span(no_groups)));
   empty_list(commands, out_.blur_layered);
   empty_list(commands, out_.blur_blurred);
+  empty_list(commands, out_.blur_narrow);
   empty_list(commands, out_.blur_squared);
 }
 
@@ -71,7 +72,7 @@ void FrameJob::blur_tiles(vk::Commands& commands, const BlurVariant& variant, co
   commands.barrier();
   dispatch_squares(commands, kernels_.get(Stage::blur_reach, variant),
                    {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.blur_wide, &out_.blur_layered,
-                    &out_.blur_blurred, &out_.blur_squared},
+                    &out_.blur_blurred, &out_.blur_narrow, &out_.blur_squared},
                    gpu::kBlurTile);
   dispatch_list(commands, kernels_.get(Stage::blur_levels, variant),
                 {&out_.pixels, &out_.blur_levels, &out_.blur_nearest}, out_.blur_wide);
@@ -82,6 +83,8 @@ void FrameJob::blur_tiles(vk::Commands& commands, const BlurVariant& variant, co
                   out_.blur_squared);
     commands.barrier();
   }
+  dispatch_list(commands, kernels_.get(Stage::blur_narrow, variant), {&out_.pixels, &blurred, &out_.blur_narrow},
+                out_.blur_narrow);
   dispatch_list(commands, kernels_.get(Stage::blur, variant),
                 {&out_.pixels, &blurred, &out_.blur_levels, &out_.blur_squares, &out_.blur_blurred}, out_.blur_blurred);
   dispatch_list(commands, kernels_.get(Stage::blur_layers, variant),

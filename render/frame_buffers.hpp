@@ -47,6 +47,7 @@ struct FrameBuffers {
         blur_wide(device, 16, vk::Memory::device),
         blur_layered(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
         blur_blurred(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
+        blur_narrow(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
         blur_squared(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
         blur_reaches(device, s.blur_tiles * 8, vk::Memory::device),
         blur_levels(device, s.blur_tiles * 21 * 8, vk::Memory::device),    // 16 + 4 + 1 squares a tile
@@ -57,8 +58,8 @@ struct FrameBuffers {
 
   Size size;
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
-      blocks, blur_tiles, blur_wide, blur_layered, blur_blurred, blur_squared, blur_reaches, blur_levels, blur_nearest,
-      blur_squares, radiance, display;
+      blocks, blur_tiles, blur_wide, blur_layered, blur_blurred, blur_narrow, blur_squared, blur_reaches, blur_levels,
+      blur_nearest, blur_squares, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
   int samples = 0;                    // in sums
 };

@@ -11,6 +11,7 @@
 #include "shaders/blur.hpp"
 #include "shaders/blur_layers.hpp"
 #include "shaders/blur_levels.hpp"
+#include "shaders/blur_narrow.hpp"
 #include "shaders/blur_reach.hpp"
 #include "shaders/blur_squares.hpp"
 #include "shaders/blur_tiles.hpp"
@@ -105,12 +106,12 @@ Recipe recipe_of(Stage stage) {
     case Stage::blur:
       return {"blur",
               shaders::blur,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, storage_buffer},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, texel_r32ui},
               Constants::blur};
     case Stage::blur_squares:
       return {"blur_squares",
               shaders::blur_squares,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, storage_buffer},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, texel_r32ui},
               Constants::blur};
     case Stage::blur_tiles:
       return {"blur_tiles",
@@ -118,17 +119,19 @@ Recipe recipe_of(Stage stage) {
               {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer},
               Constants::blur};
     case Stage::blur_reach:
-      return {
-          "blur_reach",
-          shaders::blur_reach,
-          {texel_rgba32ui, texel_rgba32f, storage_buffer, texel_r32ui, storage_buffer, storage_buffer, storage_buffer},
-          Constants::blur};
+      return {"blur_reach",
+              shaders::blur_reach,
+              {texel_rgba32ui, texel_rgba32f, storage_buffer, texel_r32ui, storage_buffer, storage_buffer,
+               storage_buffer, storage_buffer},
+              Constants::blur};
+    case Stage::blur_narrow:
+      return {"blur_narrow", shaders::blur_narrow, {texel_rgba32ui, storage_buffer, texel_r32ui}, Constants::blur};
     case Stage::blur_levels:
       return {"blur_levels", shaders::blur_levels, {texel_rgba32ui, storage_buffer, storage_buffer}, Constants::blur};
     case Stage::blur_layers:
       return {"blur_layers",
               shaders::blur_layers,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, storage_buffer, texel_rgba32ui},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui, texel_rgba32ui},
               Constants::blur};
     case Stage::encode:
       return {"encode", shaders::encode, {texel_rg32ui, storage_buffer}, Constants::none};

@@ -30,6 +30,7 @@ enum class Stage : std::uint32_t {
   blur_reach,
   blur_levels,
   blur_squares,
+  blur_narrow,
   blur,
   blur_layers,
   encode,

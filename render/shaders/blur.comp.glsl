@@ -7,7 +7,8 @@
 
 layout(binding = 2) uniform usamplerBuffer levels;
 layout(binding = 3) uniform usamplerBuffer squares;
-layout(std430, binding = 4) readonly buffer List { uint list[]; };
+layout(binding = 4) uniform usamplerBuffer list;
+#include "render/shaders/listed_tiles.glsl"
 
 #include "render/shaders/disc_gather.glsl"
 
@@ -57,18 +58,16 @@ vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
 void main() {
   ivec2 size = frame.size.xy;
   int base = frame.view.x * size.x * size.y;
-  for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
-    ivec2 p = listed_pixel(list[kListFirstAt + i]);
-    if (p.x >= size.x || p.y >= size.y) {
-      continue;
-    }
-    Tap centre = tap_at(base + p.y * size.x + p.x);
-    float reach = major(centre.ellipse);
-    vec3 mean = centre.radiance;
-    // The rim stays where it is, and what is in focus stays as it is.
-    if (centre.depth >= 0.0 && reach >= frame.limits.x) {
-      mean = reach < 1.0 ? small_blur(centre, p, base) : gathered_blur(centre, reach, p, base);
-    }
-    leave_blurred(base + p.y * size.x + p.x, mean);
+  ivec2 p = listed_pixel();
+  if (p.x >= size.x || p.y >= size.y) {
+    return;
   }
+  Tap centre = tap_at(base + p.y * size.x + p.x);
+  float reach = major(centre.ellipse);
+  vec3 mean = centre.radiance;
+  // The rim stays where it is, and what is in focus stays as it is.
+  if (centre.depth >= 0.0 && reach >= frame.limits.x) {
+    mean = reach < 1.0 ? small_blur(centre, p, base) : gathered_blur(centre, reach, p, base);
+  }
+  leave_blurred(base + p.y * size.x + p.x, mean);
 }

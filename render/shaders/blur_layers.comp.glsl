@@ -8,7 +8,8 @@
 #include "render/shaders/blurred_out.glsl"
 
 layout(binding = 2) uniform usamplerBuffer reaches;
-layout(std430, binding = 3) readonly buffer List { uint list[]; };
+layout(binding = 3) uniform usamplerBuffer list;
+#include "render/shaders/listed_tiles.glsl"
 layout(binding = 4) uniform usamplerBuffer nearest_squares;
 
 // A pixel (level 0), or what lies nearest in a square of 2 pixels (level 1).
@@ -144,29 +145,27 @@ vec4 front(float here, float reach, ivec2 p, int base) {
 void main() {
   ivec2 size = frame.size.xy;
   int base = frame.view.x * size.x * size.y;
-  for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
-    ivec2 p = listed_pixel(list[kListFirstAt + i]);
-    if (p.x >= size.x || p.y >= size.y) {
-      continue;
-    }
-    Tap centre = tap_at(base + p.y * size.x + p.x);
-    vec3 mean = centre.radiance;
-    if (centre.depth >= 0.0) {
-      float reach = major(centre.ellipse);
-      float here = nearness(centre.depth);
-      vec2 before_tile = TILE_REACH(p / kBlurTile);
-      // The nearest itself has nothing in front of it.
-      float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
-      vec4 before = vec4(0.0);
-      if (reach_of_front > 0.0) {
-        before = front(here, reach_of_front, p, base);
-        mean = clean_radiance(centre, p, base);
-      }
-      if (reach >= frame.limits.x) {
-        mean = reach < 1.0 ? small_beside(centre, mean, p, base) : beside_and_behind(centre, reach, p, base);
-      }
-      mean = before.rgb + (1.0 - before.a) * mean;
-    }
-    leave_blurred(base + p.y * size.x + p.x, mean);
+  ivec2 p = listed_pixel();
+  if (p.x >= size.x || p.y >= size.y) {
+    return;
   }
+  Tap centre = tap_at(base + p.y * size.x + p.x);
+  vec3 mean = centre.radiance;
+  if (centre.depth >= 0.0) {
+    float reach = major(centre.ellipse);
+    float here = nearness(centre.depth);
+    vec2 before_tile = TILE_REACH(p / kBlurTile);
+    // The nearest itself has nothing in front of it.
+    float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
+    vec4 before = vec4(0.0);
+    if (reach_of_front > 0.0) {
+      before = front(here, reach_of_front, p, base);
+      mean = clean_radiance(centre, p, base);
+    }
+    if (reach >= frame.limits.x) {
+      mean = reach < 1.0 ? small_beside(centre, mean, p, base) : beside_and_behind(centre, reach, p, base);
+    }
+    mean = before.rgb + (1.0 - before.a) * mean;
+  }
+  leave_blurred(base + p.y * size.x + p.x, mean);
 }

@@ -9,16 +9,22 @@ layout(std430, binding = 2) writeonly buffer Reach { vec2 reaches[]; };  // gath
 layout(binding = 3) uniform usamplerBuffer wide;  // kWidestAt
 layout(std430, binding = 4) buffer Layered { uint layered[]; };
 layout(std430, binding = 5) buffer Blurred { uint blurred[]; };
-layout(std430, binding = 6) buffer Squared { uint squared[]; };
+layout(std430, binding = 6) buffer Narrow { uint narrow[]; };
+layout(std430, binding = 7) buffer Squared { uint squared[]; };
 
-// Appends to a list of tiles, of which a workgroup takes `at_once`.
-#define APPEND_TILE(list, item, at_once)                                 \
-  {                                                                      \
-    uint place = atomicAdd(list[kListCountAt], 1u);                      \
-    list[kListFirstAt + place] = item;                                   \
-    if (place % at_once == 0u && place / at_once < kListMostGroups) {    \
-      atomicAdd(list[0], 1u);                                            \
-    }                                                                    \
+// Appends to a list of tiles, of which a workgroup takes `at_once`: kListAcross workgroups, then a row more of them.
+#define APPEND_TILE(list, item, at_once)             \
+  {                                                  \
+    uint place = atomicAdd(list[kListCountAt], 1u);  \
+    list[kListFirstAt + place] = item;               \
+    if (place % at_once == 0u) {                     \
+      uint group = place / at_once;                  \
+      if (group < kListAcross) {                     \
+        atomicAdd(list[0], 1u);                      \
+      } else if (group % kListAcross == 0u) {        \
+        atomicAdd(list[1], 1u);                      \
+      }                                              \
+    }                                                \
   }
 
 void main() {
@@ -53,11 +59,13 @@ void main() {
   reach = reach >= frame.limits.x ? min(reach * kernel_reach(), float(kBlurTile * kMostBlurTiles)) : 0.0;
   bool listed = reach > 0.0 || (own.x >= frame.limits.x && nearest - farthest > apart);
   reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : -1.0, nearest);
-  uint item = uint(tile.y * count.x + tile.x);
+  uint item = pack_tile(tile);
   if (listed) {
     APPEND_TILE(layered, item, 1u)
-  } else if (own.x >= frame.limits.x) {
+  } else if (own.x >= max(frame.limits.x, most_narrow())) {
     APPEND_TILE(blurred, item, 1u)
+  } else if (own.x >= frame.limits.x) {
+    APPEND_TILE(narrow, item, 1u)
   }
   if (kRate > 1 && beside >= kWideBlur) {
     APPEND_TILE(squared, item, kSquaredTiles)

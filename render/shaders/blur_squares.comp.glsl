@@ -7,7 +7,8 @@
 layout(std430, binding = 1) writeonly buffer Squares { uvec2 squares[]; };
 layout(binding = 2) uniform usamplerBuffer levels;
 layout(binding = 3) uniform usamplerBuffer reaches;
-layout(std430, binding = 4) readonly buffer List { uint list[]; };
+layout(binding = 4) uniform usamplerBuffer list;
+#include "render/shaders/listed_tiles.glsl"
 
 #include "render/shaders/disc_gather.glsl"
 
@@ -39,15 +40,10 @@ void gather_square(ivec2 tile, ivec2 square) {
 void main() {
   const int side = kBlurTile / 2;
   int lane = int(gl_LocalInvocationIndex);
-  for (uint i = kSquaredTiles * gl_WorkGroupID.x; i < list[kListCountAt]; i += kSquaredTiles * gl_NumWorkGroups.x) {
-    uint place = i + uint(lane / (side * side));
-    if (place < list[kListCountAt]) {
-      int item = int(list[kListFirstAt + place]);
-      ivec2 tile = ivec2(item % tile_count().x, item / tile_count().x);
-      ivec2 square = side * tile + ivec2(lane % side, lane / side % side);
-      if (all(lessThan(2 * square, frame.size.xy))) {
-        gather_square(tile, square);
-      }
-    }
+  uint place = kSquaredTiles * listed_place() + uint(lane / (side * side));
+  ivec2 tile = listed_tile(place);
+  ivec2 square = side * tile + ivec2(lane % side, lane / side % side);
+  if (is_listed(place) && all(lessThan(2 * square, frame.size.xy))) {
+    gather_square(tile, square);
   }
 }

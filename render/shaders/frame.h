@@ -53,6 +53,7 @@ const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alon
 
 // Approximate defocus looks at a picture tile by tile.
 const int kBlurTile = 8;         // px a side
+const uint kListAcross = 32768u; // workgroups of a row that goes through a list of tiles, if there are more than a row
 const uint kSquaredTiles = 4u;   // that a workgroup gathers squares of 2 pixels in
 const int kMostBlurTiles = 16;   // as far as a tile looks for blur that reaches it
 const float kBlurParallax = 0.5; // px that the pupil's half may set apart what counts as one depth

@@ -62,6 +62,7 @@ void FrameJob::empty_blur_lists(vk::Commands& commands) {
   const std::array<std::uint32_t, 4> no_groups{0, tile_groups(data_.size.y), 1, 0};
   commands.update(out_.blur_wide, std::as_bytes(std::span(no_groups)));
   empty_list(commands, out_.blur_layered);
+  empty_list(commands, out_.blur_wide_layered);
   empty_list(commands, out_.blur_blurred);
   empty_list(commands, out_.blur_narrow);
   empty_list(commands, out_.blur_squared);
@@ -69,27 +70,28 @@ void FrameJob::empty_blur_lists(vk::Commands& commands) {
 
 // Tiles that are not in focus.
 void FrameJob::blur_tiles(vk::Commands& commands, const BlurVariant& variant, const vk::Buffer& blurred) {
+  BlurVariant wide = variant;
+  wide.wide = true;
   commands.barrier();
   dispatch_squares(commands, kernels_.get(Stage::blur_reach, variant),
                    {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.blur_wide, &out_.blur_layered,
-                    &out_.blur_blurred, &out_.blur_narrow, &out_.blur_squared},
+                    &out_.blur_blurred, &out_.blur_narrow, &out_.blur_squared, &out_.blur_wide_layered},
                    gpu::kBlurTile);
-  dispatch_list(commands, kernels_.get(Stage::blur_levels, variant),
-                {&out_.pixels, &out_.blur_levels, &out_.blur_nearest}, out_.blur_wide);
+  dispatch_list(commands, kernels_.get(Stage::blur_levels, variant), {&out_.pixels, &out_.blur_levels}, out_.blur_wide);
   commands.barrier();
   if (variant.rate > 1) {
-    dispatch_list(commands, kernels_.get(Stage::blur_squares, variant),
-                  {&out_.pixels, &out_.blur_squares, &out_.blur_levels, &out_.blur_reaches, &out_.blur_squared},
-                  out_.blur_squared);
+    dispatch_list(commands, kernels_.get(Stage::blur_squares, wide),
+                  {&out_.blur_levels, &out_.blur_squares, &out_.blur_reaches, &out_.blur_squared}, out_.blur_squared);
     commands.barrier();
   }
   dispatch_list(commands, kernels_.get(Stage::blur_narrow, variant), {&out_.pixels, &blurred, &out_.blur_narrow},
                 out_.blur_narrow);
-  dispatch_list(commands, kernels_.get(Stage::blur, variant),
-                {&out_.pixels, &blurred, &out_.blur_levels, &out_.blur_squares, &out_.blur_blurred}, out_.blur_blurred);
+  dispatch_list(commands, kernels_.get(Stage::blur, wide),
+                {&out_.blur_levels, &blurred, &out_.blur_squares, &out_.blur_blurred}, out_.blur_blurred);
   dispatch_list(commands, kernels_.get(Stage::blur_layers, variant),
-                {&out_.pixels, &blurred, &out_.blur_reaches, &out_.blur_layered, &out_.blur_nearest},
-                out_.blur_layered);
+                {&out_.pixels, &blurred, &out_.blur_reaches, &out_.blur_layered}, out_.blur_layered);
+  dispatch_list(commands, kernels_.get(Stage::blur_layers, wide),
+                {&out_.blur_levels, &blurred, &out_.blur_reaches, &out_.blur_wide_layered}, out_.blur_wide_layered);
 }
 
 }  // namespace render

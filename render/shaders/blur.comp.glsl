@@ -5,19 +5,18 @@
 #include "render/shaders/gather.glsl"
 #include "render/shaders/blurred_out.glsl"
 
-layout(binding = 2) uniform usamplerBuffer levels;
-layout(binding = 3) uniform usamplerBuffer squares;
-layout(binding = 4) uniform usamplerBuffer list;
+layout(binding = 2) uniform usamplerBuffer squares;
+layout(binding = 3) uniform usamplerBuffer list;
 #include "render/shaders/listed_tiles.glsl"
 
 #include "render/shaders/disc_gather.glsl"
 
-vec3 small_blur(Tap centre, ivec2 p, int base) {
+vec3 small_blur(Tap centre, ivec2 p) {
   vec3 mean = centre.radiance;
   for (int k = 0; k < 9; ++k) {
     ivec2 o = ivec2(k % 3 - 1, k / 3 - 1);
     ivec2 q = clamp(p + o, ivec2(0), frame.size.xy - 1);
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
+    Tap tap = tap_at(q.y * pixels_a_row() + q.x);
     float w = tap.depth < 0.0 ? 0.0 : small_weight(centre.ellipse, o);
     mean += w * (tap.radiance - centre.radiance);
   }
@@ -42,7 +41,7 @@ vec4 from_squares(ivec2 p) {
   return vec4(mean.rgb, all);
 }
 
-vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
+vec3 gathered_blur(Tap centre, float reach, ivec2 p) {
   float minor = centre.ellipse.x + centre.ellipse.z - reach;
   if (kRate > 1 && minor >= kWideBlur) {
     vec4 mean = from_squares(p);
@@ -51,7 +50,7 @@ vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
     }
   }
   float area = ellipse_area(reach, minor);
-  vec4 sum = disc_sum(centre.ellipse, area, vec2(p) + 0.5, level_of(area, minor), 0.0, base);
+  vec4 sum = disc_sum(centre.ellipse, area, vec2(p) + 0.5, level_of(area, minor), 0.0);
   return sum.a > 0.0 ? sum.rgb / sum.a : centre.radiance;
 }
 
@@ -62,12 +61,12 @@ void main() {
   if (p.x >= size.x || p.y >= size.y) {
     return;
   }
-  Tap centre = tap_at(base + p.y * size.x + p.x);
+  Tap centre = tap_at(p.y * pixels_a_row() + p.x);
   float reach = major(centre.ellipse);
   vec3 mean = centre.radiance;
   // The rim stays where it is, and what is in focus stays as it is.
   if (centre.depth >= 0.0 && reach >= frame.limits.x) {
-    mean = reach < 1.0 ? small_blur(centre, p, base) : gathered_blur(centre, reach, p, base);
+    mean = reach < 1.0 ? small_blur(centre, p) : gathered_blur(centre, reach, p);
   }
   leave_blurred(base + p.y * size.x + p.x, mean);
 }

@@ -10,16 +10,20 @@
 layout(binding = 2) uniform usamplerBuffer reaches;
 layout(binding = 3) uniform usamplerBuffer list;
 #include "render/shaders/listed_tiles.glsl"
-layout(binding = 4) uniform usamplerBuffer nearest_squares;
 
 // A pixel (level 0), or what lies nearest in a square of 2 pixels (level 1).
 Square square_at(ivec2 q, int level, int base) {
   q = clamp(q, ivec2(0), (frame.size.xy - 1) >> level);
-  if (level == 0) {
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
-    return Square(tap.radiance, tap.depth < 0.0 ? 0.0 : 1.0, tap.ellipse, nearness(tap.depth));
+  int start = level == 0 ? base : blur_nearest_start(tile_count());
+  int width = level == 0 ? pixels_a_row() : blur_level_width(tile_count(), 1);
+  uvec4 packed = texelFetch(pixels, start + q.y * width + q.x);
+  Tap tap = unpack_tap(packed);
+  Square pixel = Square(tap.radiance, tap.depth < 0.0 ? 0.0 : 1.0, tap.ellipse, nearness(tap.depth));
+  if (kWide == 0u) {
+    return pixel;
   }
-  return unpack_square(texelFetch(nearest_squares, q.y * blur_level_width(tile_count(), 1) + q.x));
+  vec2 more = unpackHalf2x16(packed.w);
+  return Square(pixel.radiance, level == 0 ? pixel.coverage : more.y, pixel.ellipse, level == 0 ? pixel.nearness : more.x);
 }
 
 // How far in front of `here` something stands, 0 or 1 and between: by the pixels that the pupil's half sets the two
@@ -48,7 +52,7 @@ float share(vec3 s, vec2 offset) {
 vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
   float here = nearness(centre.depth);
   float minor = centre.ellipse.x + centre.ellipse.z - reach;
-  int level = minor >= kWideBlur && kRate > 1 ? 1 : 0;
+  int level = kWide != 0u && minor >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
   float step = max(1.0, floor(sqrt(kPi * reach * max(minor, 1.0) / float(kTaps)) / side));
   float cell = side * step;
@@ -119,7 +123,7 @@ vec3 clean_radiance(Tap centre, ivec2 p, int base) {
 
 // Radiance times coverage, coverage: row by row over all from where light may come.
 vec4 front(float here, float reach, ivec2 p, int base) {
-  int level = reach >= kWideBlur && kRate > 1 ? 1 : 0;
+  int level = kWide != 0u && reach >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
   float radius = (reach + 1.0) / side;
   float step = max(1.0, ceil(sqrt(kPi / float(2 * kTaps)) * radius));
@@ -144,12 +148,12 @@ vec4 front(float here, float reach, ivec2 p, int base) {
 
 void main() {
   ivec2 size = frame.size.xy;
-  int base = frame.view.x * size.x * size.y;
+  int base = first_pixel();
   ivec2 p = listed_pixel();
   if (p.x >= size.x || p.y >= size.y) {
     return;
   }
-  Tap centre = tap_at(base + p.y * size.x + p.x);
+  Tap centre = tap_at(base + p.y * pixels_a_row() + p.x);
   vec3 mean = centre.radiance;
   if (centre.depth >= 0.0) {
     float reach = major(centre.ellipse);
@@ -167,5 +171,5 @@ void main() {
     }
     mean = before.rgb + (1.0 - before.a) * mean;
   }
-  leave_blurred(base + p.y * size.x + p.x, mean);
+  leave_blurred((frame.view.x * size.y + p.y) * size.x + p.x, mean);
 }

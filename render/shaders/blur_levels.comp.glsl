@@ -1,28 +1,30 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What wide blurs gather from, where there are any: means over squares of 2, 4 and 8 pixels; and, of squares of 2
-// pixels, the mean of what lies nearest. An invocation for each tile.
+// The picture that wide blurs gather from (frame.h), where there are any. An invocation for each tile.
 #include "render/shaders/gather.glsl"
 
-layout(std430, binding = 1) writeonly buffer Levels { uvec2 levels[]; };
-layout(std430, binding = 2) writeonly buffer Nearest { uvec4 nearest_squares[]; };
+layout(std430, binding = 1) writeonly buffer Texels { uvec4 texels[]; };
 
 struct Mean {
   vec3 radiance;
   float count;
 };
 
+// A pixel, which is copied too.
 Tap tap_or_none(ivec2 q) {
   ivec2 inside = min(q, frame.size.xy - 1);
-  Tap tap = tap_at(frame.view.x * frame.size.x * frame.size.y + inside.y * frame.size.x + inside.x);
+  uvec4 packed = texelFetch(pixels, frame.view.x * frame.size.x * frame.size.y + inside.y * frame.size.x + inside.x);
+  texels[q.y * blur_level_width(tile_count(), 0) + q.x] = packed;
+  Tap tap = unpack_tap(packed);
   tap.depth = inside == q ? tap.depth : -1.0;
   return tap;
 }
 
 void leave_level(int level, ivec2 at, Mean mean) {
   vec3 radiance = mean.radiance / max(mean.count, 1.0);
-  levels[blur_level_start(tile_count(), level) + at.y * blur_level_width(tile_count(), level) + at.x] =
-      uvec2(packHalf2x16(radiance.rg), packHalf2x16(vec2(radiance.b, mean.count > 0.0 ? 1.0 : 0.0)));
+  texels[blur_level_start(tile_count(), level) + at.y * blur_level_width(tile_count(), level) + at.x] =
+      uvec4(packHalf2x16(radiance.rg), packHalf2x16(vec2(radiance.b, 0.0)), 0u,
+            floatBitsToUint(mean.count > 0.0 ? 1.0 : -1.0));
 }
 
 // The mean of a square; beside it that of those of its pixels that share the nearest depth.
@@ -50,7 +52,7 @@ Mean leave_square(ivec2 corner, Tap taps[4]) {
   leave_level(1, corner / 2, all);
   float part = 1.0 / max(count, 1.0);
   ivec2 at = corner / 2;
-  nearest_squares[at.y * blur_level_width(tile_count(), 1) + at.x] =
+  texels[blur_nearest_start(tile_count()) + at.y * blur_level_width(tile_count(), 1) + at.x] =
       pack_square(Square(part * radiance, 0.25 * count, part * ellipse, part * here));
   return all;
 }

@@ -35,29 +35,26 @@ vec3 small_mean(Tap centre, ivec2 p, int base, int turns) {
 
 vec4 narrow_sum(vec3 ellipse, ivec2 p, int base) {
   Rows rows = rows_of(ellipse, vec2(0.0));
-  float softness = row_softness(rows);
-  float sharpness = 1.0 / softness;
   int last_row = row_range(rows).y;
   ivec2 last = frame.size.xy - 1;
   vec4 sum = vec4(0.0);
-  float inverse_top = 1.0 / rows.top;
   float scale = rows.width * rows.top;
-  float above = half_widths(0.5 * inverse_top);
+  float above = half_widths(0.5 * rows.inverse_top);
   float covered = -above;
   for (int row = 0; row <= last_row; ++row) {
     float half_span = scale * (above - covered);
     covered = above;
-    above = half_widths((float(row) + 1.5) * inverse_top);  // here, as a processor has time for it
+    above = half_widths((float(row) + 1.5) * rows.inverse_top);  // here, as a processor has time for it
     float middle = rows.lean * float(row);
-    float beyond = half_span + 0.5 * softness - 0.5;
+    float beyond = half_span + 0.5 * rows.softness - 0.5;
     ivec2 cells = cells_between(middle - beyond, middle + beyond);
-    float from = (half_span - middle) * sharpness + 0.5;
-    float to = (-half_span - middle) * sharpness + 0.5;
+    float from = (half_span - middle) * rows.inverse_softness + 0.5;
+    float to = (-half_span - middle) * rows.inverse_softness + 0.5;
     int down = base + min(p.y + row, last.y) * frame.size.x;
     int up = base + max(p.y - row, 0) * frame.size.x;
     vec4 of_row = vec4(0.0);
     for (int k = cells.x; k <= cells.y; ++k) {
-      float along = float(k) * sharpness;
+      float along = float(k) * rows.inverse_softness;
       float w = clamp(from + along, 0.0, 1.0) - clamp(to + along, 0.0, 1.0);
       of_row += w * pair_at(down + clamp(p.x + k, 0, last.x), up + clamp(p.x - k, 0, last.x));
     }

@@ -10,6 +10,7 @@ layout(binding = 3) uniform usamplerBuffer wide;  // kWidestAt
 layout(std430, binding = 4) buffer Layered { uint layered[]; };
 layout(std430, binding = 5) buffer Blurred { uint blurred[]; };
 layout(std430, binding = 6) buffer Narrow { uint narrow[]; };
+layout(std430, binding = 8) buffer WideLayered { uint wide_layered[]; };
 layout(std430, binding = 7) buffer Squared { uint squared[]; };
 
 // Appends to a list of tiles, of which a workgroup takes `at_once`: kListAcross workgroups, then a row more of them.
@@ -61,8 +62,12 @@ void main() {
   reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : -1.0, nearest);
   uint item = pack_tile(tile);
   if (listed) {
-    APPEND_TILE(layered, item, 1u)
-  } else if (own.x >= max(frame.limits.x, most_narrow())) {
+    if (most >= kernel_reach() * least_wide()) {
+      APPEND_TILE(wide_layered, item, 1u)
+    } else {
+      APPEND_TILE(layered, item, 1u)
+    }
+  } else if (own.x >= least_wide()) {
     APPEND_TILE(blurred, item, 1u)
   } else if (own.x >= frame.limits.x) {
     APPEND_TILE(narrow, item, 1u)

@@ -5,21 +5,19 @@
 #include "render/shaders/gather.glsl"
 
 layout(std430, binding = 1) writeonly buffer Squares { uvec2 squares[]; };
-layout(binding = 2) uniform usamplerBuffer levels;
-layout(binding = 3) uniform usamplerBuffer reaches;
-layout(binding = 4) uniform usamplerBuffer list;
+layout(binding = 2) uniform usamplerBuffer reaches;
+layout(binding = 3) uniform usamplerBuffer list;
 #include "render/shaders/listed_tiles.glsl"
 
 #include "render/shaders/disc_gather.glsl"
 
 void gather_square(ivec2 tile, ivec2 square) {
   int width = blur_level_width(tile_count(), 1);
-  int base = frame.view.x * frame.size.x * frame.size.y;
   float least = 1e30;
   vec3 ellipse = vec3(0.0);
   for (int k = 0; k < 4; ++k) {
     ivec2 q = min(2 * square + ivec2(k & 1, k >> 1), frame.size.xy - 1);
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
+    Tap tap = tap_at(q.y * pixels_a_row() + q.x);
     ellipse += 0.25 * tap.ellipse;
     least = tap.depth < 0.0 ? 0.0 : min(least, tap.ellipse.x + tap.ellipse.z - major(tap.ellipse));
   }
@@ -30,7 +28,7 @@ void gather_square(ivec2 tile, ivec2 square) {
     float minor = ellipse.x + ellipse.z - reach;
     float area = ellipse_area(reach, minor);
     // Interpolating with weights of 3/4 at half a pixel and 1/4 at one and a half.
-    sum = disc_sum(ellipse, area, 2.0 * vec2(square) + 1.0, level_of(area, minor), 0.75, base);
+    sum = disc_sum(ellipse, area, 2.0 * vec2(square) + 1.0, level_of(area, minor), 0.75);
   }
   vec3 mean = sum.rgb / max(sum.a, 1e-6);
   squares[square.y * width + square.x] =

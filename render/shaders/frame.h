@@ -62,10 +62,13 @@ const uint kWideGroupsAt = 0u;   // whether a picture has wide blurs: how many g
 const uint kWidestAt = 3u;       // and the bits of its largest
 const float kWideBlur = 6.0;     // px, a minor semi-axis from which neighbours may share a gather
 
-// Means over squares of 2, 4 and 8 pixels: level after level, whole tiles, row by row.
+// A picture that wide blurs gather from, of texels like traced pixels, row by row: the pixels themselves in whole tiles;
+// means over squares of 2, 4 and 8 pixels; and of squares of 2 pixels the mean of what lies nearest.
+const int kWideTexels = 101;  // a tile
 #ifndef __cplusplus
 int blur_level_width(ivec2 tiles, int level) { return tiles.x * (kBlurTile >> level); }
 int blur_level_start(ivec2 tiles, int level) {
-  return tiles.x * tiles.y * (level > 2 ? 20 : (level > 1 ? 16 : 0));
+  return tiles.x * tiles.y * (level > 1 ? (level > 2 ? 84 : 80) : (level > 0 ? 64 : 0));
 }
+int blur_nearest_start(ivec2 tiles) { return 85 * tiles.x * tiles.y; }
 #endif

@@ -22,8 +22,6 @@ using tracking::Side;
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kLargestGaze_deg = 45.0;
 constexpr double kNearestTarget_m = 0.02;  // spectacles and eye lie within
-// The field that a headset's picture fills, for the pupil's size: a circle 60 degrees across.
-constexpr double kHeadsetField_deg2 = std::numbers::pi * 30.0 * 30.0;
 
 glm::dvec3 gaze_direction(const SceneOptions& options) {
   const auto v = numbers_of("--gaze", options.gaze, 2, "YAW,PITCH in degrees, such as 10,-25");
@@ -85,6 +83,18 @@ std::optional<lenses::Spectacles> read_pair(const std::string& file) {
     return std::nullopt;
   }
   return lenses::read_spectacles(file);
+}
+
+std::vector<std::string> pair_files(const SceneOptions& options) {
+  std::vector<std::string> files{options.spectacles};
+  files.insert(files.end(), options.further.begin(), options.further.end());
+  if (!options.compare.empty()) {
+    files.push_back(options.compare);
+  }
+  if (options.bare_too) {
+    files.emplace_back("none");
+  }
+  return files;
 }
 
 void look(WornPair& pair, const RenderSetup& setup, const SceneOptions& options, const render::Scene& scene,
@@ -170,9 +180,8 @@ RenderSetup make_render_setup(const SceneOptions& options, const render::Scene& 
     setup.sides.push_back(Side::right);
   }
   const Pose world_from_head = start_pose(options, scene);
-  setup.pairs.push_back(wear(setup, read_pair(options.spectacles), options.spectacles, world_from_head, headset));
-  if (!options.compare.empty()) {
-    setup.pairs.push_back(wear(setup, read_pair(options.compare), options.compare, world_from_head, headset));
+  for (const std::string& file : pair_files(options)) {
+    setup.pairs.push_back(wear(setup, read_pair(file), file, world_from_head, headset));
   }
   const render::RayQuery query(scene);
   for (WornPair& pair : setup.pairs) {

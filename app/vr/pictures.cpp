@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/vr/setup.hpp"
 #include "render/guard_band.hpp"
 
 namespace app {
@@ -27,49 +28,73 @@ int guard_of(const RenderSetup& setup, int width, int height) {
 
 }  // namespace
 
-Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, const render::LiveConfig& config)
-    : renderer_(renderer), loop_(loop), config_(config) {
-  config_.frame.width = loop.swapchain(Side::left).width();
-  config_.frame.height = loop.swapchain(Side::left).height();
-  config_.blue_first = loop.swapchain(Side::left).format() == VK_FORMAT_B8G8R8A8_SRGB;
-}
+Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, const VrOptions& options,
+                   std::vector<render::GovernorRung> rungs)
+    : renderer_(renderer), loop_(loop), options_(options), rungs_(std::move(rungs)) {}
 
 // What is recorded for the device depends on the lenses and on how wide the blur can be, and on nothing that moves.
-void Pictures::prepare(const RenderSetup& setup) {
-  if (live_) {
-    return;
+render::LiveConfig Pictures::config_of(const PictureKey& key, const RenderSetup& setup) const {
+  render::LiveConfig config = live_config(options_, key.shown.mode);
+  config.frame.accuracy = rungs_.at(key.rung).accuracy;
+  config.frame.width = loop_.swapchain(Side::left).width();
+  config.frame.height = loop_.swapchain(Side::left).height();
+  config.blue_first = loop_.swapchain(Side::left).format() == VK_FORMAT_B8G8R8A8_SRGB;
+  config.eyes = setup.sides.size();
+  config.pairs = setup.pairs.size();
+  if (config.frame.mode == render::Mode::adof) {
+    config.guard_px = guard_of(setup, config.frame.width, config.frame.height);
   }
-  config_.eyes = setup.sides.size();
-  config_.pairs = setup.pairs.size();
-  if (config_.frame.mode == render::Mode::adof) {
-    config_.guard_px = guard_of(setup, config_.frame.width, config_.frame.height);
+  return config;
+}
+
+void Pictures::prepare(const PictureKey& key, const RenderSetup& setup) {
+  renderer_.prepare(setup.lenses, setup.views, config_of(key, setup).frame);
+}
+
+bool Pictures::has(const PictureKey& key) const {
+  return std::ranges::find(made_, key, &Made::key) != made_.end();
+}
+
+void Pictures::make(const PictureKey& key, const RenderSetup& setup) {
+  if (made_.size() >= rungs_.size() + kMost) {
+    made_.pop_back();
   }
   std::vector<std::vector<VkImage>> images;
   for (const Side side : setup.sides) {
     images.push_back(loop_.swapchain(side).images());
   }
-  live_ = std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config_, images);
+  const render::LiveConfig config = config_of(key, setup);
+  made_.push_back(
+      {key, config, std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config, images)});
 }
 
-void Pictures::start(const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {
+void Pictures::start(const PictureKey& key, const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {
+  made_.splice(made_.begin(), made_, std::ranges::find(made_, key, &Made::key));
   std::vector<std::uint32_t> of_eyes;
   for (const Side side : setup.sides) {
     of_eyes.push_back(images[static_cast<std::size_t>(side)]);
   }
-  live_->start(setup.lenses, setup.views, of_eyes);
+  made_.front().frame->start(setup.lenses, setup.views, of_eyes);
+  shown_ = under_way_ = true;
 }
 
-std::vector<render::vk::StageTime> Pictures::wait() {
-  return live_ ? live_->wait() : std::vector<render::vk::StageTime>{};
+std::optional<Pictures::Done> Pictures::wait() {
+  if (!under_way_) {
+    return std::nullopt;
+  }
+  under_way_ = false;
+  return Done{made_.front().key, made_.front().frame->wait()};
 }
 
 std::optional<render::Image8> Pictures::read_picture() {
-  if (!live_) {
+  if (!shown_) {
     return std::nullopt;
   }
-  render::Image8 picture = render::black_image(2 * config_.frame.width, config_.frame.height);
-  for (std::size_t eye = 0; eye < config_.eyes; ++eye) {
-    const render::Image8 one = live_->read_picture(eye);
+  Made& last = made_.front();
+  const render::FrameConfig& size = last.config.frame;
+  render::Image8 picture = render::black_image(2 * size.width, size.height);
+  for (std::size_t eye = 0; eye < last.config.eyes; ++eye) {
+    const render::Image8 one = last.frame->read_picture(eye);
     const std::size_t row = 3 * static_cast<std::size_t>(one.width);
     for (std::size_t y = 0; y < static_cast<std::size_t>(one.height); ++y) {
       std::copy_n(one.rgb.begin() + static_cast<std::ptrdiff_t>(y * row), row,
@@ -77,6 +102,11 @@ std::optional<render::Image8> Pictures::read_picture() {
     }
   }
   return picture;
+}
+
+std::optional<int> Pictures::guard_px(const PictureKey& key) const {
+  const auto made = std::ranges::find(made_, key, &Made::key);
+  return made == made_.end() ? std::nullopt : std::optional(made->config.guard_px);
 }
 
 }  // namespace app

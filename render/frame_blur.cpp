@@ -1,9 +1,22 @@
 // The stages of approximate defocus.
 #include "render/frame_blur.hpp"
 
+#include <array>
+#include <span>
+
 #include "render/frame_job.hpp"
 
 namespace render {
+namespace {
+
+// Workgroups of an invocation a tile.
+std::uint32_t tile_groups(int pixels) {
+  constexpr int kPixels = 8 * gpu::kBlurTile;
+  return static_cast<std::uint32_t>((pixels + kPixels - 1) / kPixels);
+}
+
+}  // namespace
+
 std::size_t blur_tiles(int width, int height) {
   const auto along = [](int pixels) {
     return static_cast<std::size_t>((pixels + gpu::kBlurTile - 1) / gpu::kBlurTile);
@@ -30,38 +43,55 @@ void FrameJob::record_blur(vk::Commands& commands) {
   const vk::Buffer& blurred = config_.keep_radiance ? out_.radiance : out_.display;
   // Views share the memory of what is known of their tiles.
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
-    commands.barrier();
     if (blurs) {
-      find_layers(commands, variant);
+      data_.limits.w = half_pupil_px_[static_cast<std::size_t>(data_.view.x)];
+      empty_blur_lists(commands);
     }
-    dispatch_view(commands, kernels_.get(Stage::blur, variant),
-                  {&out_.pixels, &blurred, &out_.blur_levels, &out_.blur_reaches, &out_.blur_squares});
+    commands.barrier();
+    dispatch_squares(commands, kernels_.get(Stage::blur_tiles, variant),
+                     {&out_.pixels, &blurred, &out_.blur_tiles, &out_.blur_wide}, gpu::kBlurTile);
     if (blurs) {
-      dispatch_list(commands, kernels_.get(Stage::blur_layers, variant),
-                    {&out_.pixels, &blurred, &out_.blur_reaches, &out_.list, &out_.blur_nearest}, out_.list);
+      blur_tiles(commands, variant, blurred);
     }
   }
   commands.timestamp("blur");
 }
 
-// Lists the tiles of a view in which a blur reaches across depth.
-void FrameJob::find_layers(vk::Commands& commands, const BlurVariant& variant) {
-  data_.limits.w = half_pupil_px_[static_cast<std::size_t>(data_.view.x)];
-  empty_list(commands, out_.list);
-  commands.fill_zero(out_.blur_widest);
+void FrameJob::empty_blur_lists(vk::Commands& commands) {
   commands.barrier();
-  dispatch_squares(commands, kernels_.get(Stage::blur_tiles, variant),
-                   {&out_.pixels, &out_.blur_tiles, &out_.blur_levels, &out_.blur_nearest, &out_.blur_widest},
-                   gpu::kBlurTile);
+  const std::array<std::uint32_t, 4> no_groups{0, tile_groups(data_.size.y), 1, 0};
+  commands.update(out_.blur_wide, std::as_bytes(std::span(no_groups)));
+  empty_list(commands, out_.blur_layered);
+  empty_list(commands, out_.blur_wide_layered);
+  empty_list(commands, out_.blur_blurred);
+  empty_list(commands, out_.blur_narrow);
+  empty_list(commands, out_.blur_squared);
+}
+
+// Tiles that are not in focus.
+void FrameJob::blur_tiles(vk::Commands& commands, const BlurVariant& variant, const vk::Buffer& blurred) {
+  BlurVariant wide = variant;
+  wide.wide = true;
   commands.barrier();
   dispatch_squares(commands, kernels_.get(Stage::blur_reach, variant),
-                   {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.list, &out_.blur_widest}, gpu::kBlurTile);
+                   {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.blur_wide, &out_.blur_layered,
+                    &out_.blur_blurred, &out_.blur_narrow, &out_.blur_squared, &out_.blur_wide_layered},
+                   gpu::kBlurTile);
+  dispatch_list(commands, kernels_.get(Stage::blur_levels, variant), {&out_.pixels, &out_.blur_levels}, out_.blur_wide);
   commands.barrier();
   if (variant.rate > 1) {
-    dispatch_squares(commands, kernels_.get(Stage::blur_squares, variant),
-                     {&out_.pixels, &out_.blur_squares, &out_.blur_levels, &out_.blur_reaches}, 2);
+    dispatch_list(commands, kernels_.get(Stage::blur_squares, wide),
+                  {&out_.blur_levels, &out_.blur_squares, &out_.blur_reaches, &out_.blur_squared}, out_.blur_squared);
     commands.barrier();
   }
+  dispatch_list(commands, kernels_.get(Stage::blur_narrow, variant), {&out_.pixels, &blurred, &out_.blur_narrow},
+                out_.blur_narrow);
+  dispatch_list(commands, kernels_.get(Stage::blur, wide),
+                {&out_.blur_levels, &blurred, &out_.blur_squares, &out_.blur_blurred}, out_.blur_blurred);
+  dispatch_list(commands, kernels_.get(Stage::blur_layers, variant),
+                {&out_.pixels, &blurred, &out_.blur_reaches, &out_.blur_layered}, out_.blur_layered);
+  dispatch_list(commands, kernels_.get(Stage::blur_layers, wide),
+                {&out_.blur_levels, &blurred, &out_.blur_reaches, &out_.blur_wide_layered}, out_.blur_wide_layered);
 }
 
 }  // namespace render

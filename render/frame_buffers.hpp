@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/frame_types.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/buffer.hpp"
 
@@ -44,17 +45,22 @@ struct FrameBuffers {
         doubtful(device, (s.pixels + 4) * 4, vk::Memory::device),
         blocks(device, s.pixels * 4, vk::Memory::device),
         blur_tiles(device, s.blur_tiles * 16, vk::Memory::device),
-        blur_widest(device, 4, vk::Memory::device),
+        blur_wide(device, 16, vk::Memory::device),
+        blur_layered(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
+        blur_wide_layered(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
+        blur_blurred(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
+        blur_narrow(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
+        blur_squared(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
         blur_reaches(device, s.blur_tiles * 8, vk::Memory::device),
-        blur_levels(device, s.blur_tiles * 21 * 8, vk::Memory::device),    // 16 + 4 + 1 squares a tile
-        blur_nearest(device, s.blur_tiles * 16 * 16, vk::Memory::device),  // 16 squares of 2 pixels a tile
+        blur_levels(device, s.blur_tiles * gpu::kWideTexels * 16, vk::Memory::device),
         blur_squares(device, s.blur_tiles * 16 * 8, vk::Memory::device),
         radiance(device, s.pixels * 8, vk::Memory::device),
         display(device, s.pixels * 4, vk::Memory::device) {}
 
   Size size;
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
-      blocks, blur_tiles, blur_widest, blur_reaches, blur_levels, blur_nearest, blur_squares, radiance, display;
+      blocks, blur_tiles, blur_wide, blur_layered, blur_wide_layered, blur_blurred, blur_narrow, blur_squared,
+      blur_reaches, blur_levels, blur_squares, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
   int samples = 0;                    // in sums
 };

@@ -42,7 +42,8 @@ class FrameJob {
   void aim(vk::Commands& commands);
   void aim_between_corners(vk::Commands& commands);
   void find_hits(vk::Commands& commands);
-  void find_layers(vk::Commands& commands, const BlurVariant& variant);
+  void empty_blur_lists(vk::Commands& commands);
+  void blur_tiles(vk::Commands& commands, const BlurVariant& variant, const vk::Buffer& blurred);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);

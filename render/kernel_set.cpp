@@ -10,6 +10,8 @@
 #include "shaders/between.hpp"
 #include "shaders/blur.hpp"
 #include "shaders/blur_layers.hpp"
+#include "shaders/blur_levels.hpp"
+#include "shaders/blur_narrow.hpp"
 #include "shaders/blur_reach.hpp"
 #include "shaders/blur_squares.hpp"
 #include "shaders/blur_tiles.hpp"
@@ -102,29 +104,31 @@ Recipe recipe_of(Stage stage) {
       return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
               Constants::samples};
     case Stage::blur:
-      return {"blur",
-              shaders::blur,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui, texel_rg32ui},
-              Constants::blur};
+      return {"blur", shaders::blur, {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui}, Constants::blur};
     case Stage::blur_squares:
       return {"blur_squares",
               shaders::blur_squares,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_rg32ui},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui},
               Constants::blur};
     case Stage::blur_tiles:
       return {"blur_tiles",
               shaders::blur_tiles,
-              {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer, storage_buffer},
+              {texel_rgba32ui, storage_buffer, storage_buffer, storage_buffer},
               Constants::blur};
     case Stage::blur_reach:
       return {"blur_reach",
               shaders::blur_reach,
-              {texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer, texel_r32ui},
+              {texel_rgba32ui, texel_rgba32f, storage_buffer, texel_r32ui, storage_buffer, storage_buffer,
+               storage_buffer, storage_buffer, storage_buffer},
               Constants::blur};
+    case Stage::blur_narrow:
+      return {"blur_narrow", shaders::blur_narrow, {texel_rgba32ui, storage_buffer, texel_r32ui}, Constants::blur};
+    case Stage::blur_levels:
+      return {"blur_levels", shaders::blur_levels, {texel_rgba32ui, storage_buffer}, Constants::blur};
     case Stage::blur_layers:
       return {"blur_layers",
               shaders::blur_layers,
-              {texel_rgba32ui, storage_buffer, texel_rg32ui, storage_buffer, texel_rgba32ui},
+              {texel_rgba32ui, storage_buffer, texel_rg32ui, texel_r32ui},
               Constants::blur};
     case Stage::encode:
       return {"encode", shaders::encode, {texel_rg32ui, storage_buffer}, Constants::none};
@@ -175,10 +179,9 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
 }
 
 const vk::Kernel& KernelSet::get(Stage stage, const BlurVariant& variant) {
-  return get(
-      stage,
-      {variant.taps, variant.gaussian ? 1U : 0U, variant.encode ? 1U : 0U, static_cast<std::uint32_t>(variant.rate)},
-      4);
+  const Key key{variant.taps, variant.gaussian ? 1U : 0U, variant.encode ? 1U : 0U,
+                static_cast<std::uint32_t>(variant.rate), variant.wide ? 1U : 0U};
+  return get(stage, key, 5);
 }
 
 const vk::Kernel& KernelSet::get(Stage stage, Key key, std::size_t constants) {

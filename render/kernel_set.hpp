@@ -28,7 +28,9 @@ enum class Stage : std::uint32_t {
   samples,
   blur_tiles,
   blur_reach,
+  blur_levels,
   blur_squares,
+  blur_narrow,
   blur,
   blur_layers,
   encode,
@@ -55,6 +57,7 @@ struct BlurVariant {
   bool gaussian = false;
   int rate = 1;         // BlurAccuracy::rate
   bool encode = false;  // straight to the display's bytes
+  bool wide = false;    // from a picture that wide blurs gather from (shaders/frame.h)
 };
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.

@@ -1,21 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Approximate defocus where all that a blur reaches lies at one depth: the mean over the pixel's own ellipse.
+// Approximate defocus in the listed tiles, where all that a blur reaches lies at one depth: the mean over the pixel's
+// own ellipse.
 #include "render/shaders/gather.glsl"
 #include "render/shaders/blurred_out.glsl"
 
-layout(binding = 2) uniform usamplerBuffer levels;
-layout(binding = 3) uniform usamplerBuffer reaches;
-layout(binding = 4) uniform usamplerBuffer squares;
+layout(binding = 2) uniform usamplerBuffer squares;
+layout(binding = 3) uniform usamplerBuffer list;
+#include "render/shaders/listed_tiles.glsl"
 
 #include "render/shaders/disc_gather.glsl"
 
-vec3 small_blur(Tap centre, ivec2 p, int base) {
+vec3 small_blur(Tap centre, ivec2 p) {
   vec3 mean = centre.radiance;
   for (int k = 0; k < 9; ++k) {
     ivec2 o = ivec2(k % 3 - 1, k / 3 - 1);
     ivec2 q = clamp(p + o, ivec2(0), frame.size.xy - 1);
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
+    Tap tap = tap_at(q.y * pixels_a_row() + q.x);
     float w = tap.depth < 0.0 ? 0.0 : small_weight(centre.ellipse, o);
     mean += w * (tap.radiance - centre.radiance);
   }
@@ -40,7 +41,7 @@ vec4 from_squares(ivec2 p) {
   return vec4(mean.rgb, all);
 }
 
-vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
+vec3 gathered_blur(Tap centre, float reach, ivec2 p) {
   float minor = centre.ellipse.x + centre.ellipse.z - reach;
   if (kRate > 1 && minor >= kWideBlur) {
     vec4 mean = from_squares(p);
@@ -49,29 +50,23 @@ vec3 gathered_blur(Tap centre, float reach, ivec2 p, int base) {
     }
   }
   float area = ellipse_area(reach, minor);
-  vec4 sum = disc_sum(centre.ellipse, area, vec2(p) + 0.5, level_of(area, minor), 0.0, base);
+  vec4 sum = disc_sum(centre.ellipse, area, vec2(p) + 0.5, level_of(area, minor), 0.0);
   return sum.a > 0.0 ? sum.rgb / sum.a : centre.radiance;
 }
 
 void main() {
-  ivec2 p = pixel_in_picture();
   ivec2 size = frame.size.xy;
+  int base = frame.view.x * size.x * size.y;
+  ivec2 p = listed_pixel();
   if (p.x >= size.x || p.y >= size.y) {
     return;
   }
-  int base = frame.view.x * size.x * size.y;
-  Tap centre = tap_at(base + p.y * size.x + p.x);
+  Tap centre = tap_at(p.y * pixels_a_row() + p.x);
+  float reach = major(centre.ellipse);
   vec3 mean = centre.radiance;
-  if (kTaps != 0) {
-    ivec2 tile = p / kBlurTile;
-    if (TILE_REACH(tile).x >= 0.0) {
-      return;  // has layers
-    }
-    float reach = major(centre.ellipse);
-    // The rim stays where it is, and what is in focus stays as it is, to the bit.
-    if (centre.depth >= 0.0 && reach >= frame.limits.x) {
-      mean = reach < 1.0 ? small_blur(centre, p, base) : gathered_blur(centre, reach, p, base);
-    }
+  // The rim stays where it is, and what is in focus stays as it is.
+  if (centre.depth >= 0.0 && reach >= frame.limits.x) {
+    mean = reach < 1.0 ? small_blur(centre, p) : gathered_blur(centre, reach, p);
   }
   leave_blurred(base + p.y * size.x + p.x, mean);
 }

@@ -8,17 +8,22 @@
 #include "render/shaders/blurred_out.glsl"
 
 layout(binding = 2) uniform usamplerBuffer reaches;
-layout(std430, binding = 3) readonly buffer List { uint list[]; };
-layout(binding = 4) uniform usamplerBuffer nearest_squares;
+layout(binding = 3) uniform usamplerBuffer list;
+#include "render/shaders/listed_tiles.glsl"
 
 // A pixel (level 0), or what lies nearest in a square of 2 pixels (level 1).
 Square square_at(ivec2 q, int level, int base) {
   q = clamp(q, ivec2(0), (frame.size.xy - 1) >> level);
-  if (level == 0) {
-    Tap tap = tap_at(base + q.y * frame.size.x + q.x);
-    return Square(tap.radiance, tap.depth < 0.0 ? 0.0 : 1.0, tap.ellipse, nearness(tap.depth));
+  int start = level == 0 ? base : blur_nearest_start(tile_count());
+  int width = level == 0 ? pixels_a_row() : blur_level_width(tile_count(), 1);
+  uvec4 packed = texelFetch(pixels, start + q.y * width + q.x);
+  Tap tap = unpack_tap(packed);
+  Square pixel = Square(tap.radiance, tap.depth < 0.0 ? 0.0 : 1.0, tap.ellipse, nearness(tap.depth));
+  if (kWide == 0u) {
+    return pixel;
   }
-  return unpack_square(texelFetch(nearest_squares, q.y * blur_level_width(tile_count(), 1) + q.x));
+  vec2 more = unpackHalf2x16(packed.w);
+  return Square(pixel.radiance, level == 0 ? pixel.coverage : more.y, pixel.ellipse, level == 0 ? pixel.nearness : more.x);
 }
 
 // How far in front of `here` something stands, 0 or 1 and between: by the pixels that the pupil's half sets the two
@@ -47,7 +52,7 @@ float share(vec3 s, vec2 offset) {
 vec3 beside_and_behind(Tap centre, float reach, ivec2 p, int base) {
   float here = nearness(centre.depth);
   float minor = centre.ellipse.x + centre.ellipse.z - reach;
-  int level = minor >= kWideBlur && kRate > 1 ? 1 : 0;
+  int level = kWide != 0u && minor >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
   float step = max(1.0, floor(sqrt(kPi * reach * max(minor, 1.0) / float(kTaps)) / side));
   float cell = side * step;
@@ -118,7 +123,7 @@ vec3 clean_radiance(Tap centre, ivec2 p, int base) {
 
 // Radiance times coverage, coverage: row by row over all from where light may come.
 vec4 front(float here, float reach, ivec2 p, int base) {
-  int level = reach >= kWideBlur && kRate > 1 ? 1 : 0;
+  int level = kWide != 0u && reach >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
   float radius = (reach + 1.0) / side;
   float step = max(1.0, ceil(sqrt(kPi / float(2 * kTaps)) * radius));
@@ -143,32 +148,28 @@ vec4 front(float here, float reach, ivec2 p, int base) {
 
 void main() {
   ivec2 size = frame.size.xy;
-  int base = frame.view.x * size.x * size.y;
-  for (uint i = gl_WorkGroupID.x; i < list[kListCountAt]; i += gl_NumWorkGroups.x) {
-    int item = int(list[kListFirstAt + i]);
-    ivec2 tile = ivec2(item % tile_count().x, item / tile_count().x);
-    ivec2 p = kBlurTile * tile + ivec2(gl_LocalInvocationID.xy);
-    if (p.x >= size.x || p.y >= size.y) {
-      continue;
-    }
-    Tap centre = tap_at(base + p.y * size.x + p.x);
-    vec3 mean = centre.radiance;
-    if (centre.depth >= 0.0) {
-      float reach = major(centre.ellipse);
-      float here = nearness(centre.depth);
-      vec2 before_tile = TILE_REACH(tile);
-      // The nearest itself has nothing in front of it.
-      float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
-      vec4 before = vec4(0.0);
-      if (reach_of_front > 0.0) {
-        before = front(here, reach_of_front, p, base);
-        mean = clean_radiance(centre, p, base);
-      }
-      if (reach >= frame.limits.x) {
-        mean = reach < 1.0 ? small_beside(centre, mean, p, base) : beside_and_behind(centre, reach, p, base);
-      }
-      mean = before.rgb + (1.0 - before.a) * mean;
-    }
-    leave_blurred(base + p.y * size.x + p.x, mean);
+  int base = first_pixel();
+  ivec2 p = listed_pixel();
+  if (p.x >= size.x || p.y >= size.y) {
+    return;
   }
+  Tap centre = tap_at(base + p.y * pixels_a_row() + p.x);
+  vec3 mean = centre.radiance;
+  if (centre.depth >= 0.0) {
+    float reach = major(centre.ellipse);
+    float here = nearness(centre.depth);
+    vec2 before_tile = TILE_REACH(p / kBlurTile);
+    // The nearest itself has nothing in front of it.
+    float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
+    vec4 before = vec4(0.0);
+    if (reach_of_front > 0.0) {
+      before = front(here, reach_of_front, p, base);
+      mean = clean_radiance(centre, p, base);
+    }
+    if (reach >= frame.limits.x) {
+      mean = reach < 1.0 ? small_beside(centre, mean, p, base) : beside_and_behind(centre, reach, p, base);
+    }
+    mean = before.rgb + (1.0 - before.a) * mean;
+  }
+  leave_blurred((frame.view.x * size.y + p.y) * size.x + p.x, mean);
 }

@@ -1,13 +1,32 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which tiles see depth within reach of a blur: those are listed, and get their layers apart. A tile looks at all that
-// its own blur reaches and all whose blur reaches it.
+// Which tiles see depth within reach of a blur: those are listed to get their layers apart; which of the others are
+// blurred; and which share gathers. A tile looks at all that its own blur reaches and all whose blur reaches it.
 #include "render/shaders/gather.glsl"
 
 layout(binding = 1) uniform samplerBuffer tiles;
 layout(std430, binding = 2) writeonly buffer Reach { vec2 reaches[]; };  // gather.glsl
-layout(std430, binding = 3) buffer List { uint list[]; };
-layout(binding = 4) uniform usamplerBuffer widest;
+layout(binding = 3) uniform usamplerBuffer wide;  // kWidestAt
+layout(std430, binding = 4) buffer Layered { uint layered[]; };
+layout(std430, binding = 5) buffer Blurred { uint blurred[]; };
+layout(std430, binding = 6) buffer Narrow { uint narrow[]; };
+layout(std430, binding = 8) buffer WideLayered { uint wide_layered[]; };
+layout(std430, binding = 7) buffer Squared { uint squared[]; };
+
+// Appends to a list of tiles, of which a workgroup takes `at_once`: kListAcross workgroups, then a row more of them.
+#define APPEND_TILE(list, item, at_once)             \
+  {                                                  \
+    uint place = atomicAdd(list[kListCountAt], 1u);  \
+    list[kListFirstAt + place] = item;               \
+    if (place % at_once == 0u) {                     \
+      uint group = place / at_once;                  \
+      if (group < kListAcross) {                     \
+        atomicAdd(list[0], 1u);                      \
+      } else if (group % kListAcross == 0u) {        \
+        atomicAdd(list[1], 1u);                      \
+      }                                              \
+    }                                                \
+  }
 
 void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -20,12 +39,14 @@ void main() {
   float nearest = own.y;
   float farthest = own.z;
   float reach = 0.0;
-  float most = kernel_reach() * uintBitsToFloat(texelFetch(widest, 0).x);
+  float beside = 0.0;  // the largest blur of the tiles that touch this one
+  float most = kernel_reach() * uintBitsToFloat(texelFetch(wide, int(kWidestAt)).x);
   int around = min(int(ceil(most / float(kBlurTile))), kMostBlurTiles);
   for (int y = max(tile.y - around, 0); y <= min(tile.y + around, count.y - 1); ++y) {
     for (int x = max(tile.x - around, 0); x <= min(tile.x + around, count.x - 1); ++x) {
       vec4 other = texelFetch(tiles, y * count.x + x);
       float gap = float(kBlurTile * (max(abs(x - tile.x), abs(y - tile.y)) - 1));
+      beside = gap <= 0.0 ? max(beside, other.x) : beside;
       if (kernel_reach() * own.x > gap) {
         nearest = max(nearest, other.y);
         farthest = min(farthest, other.z);
@@ -39,11 +60,19 @@ void main() {
   reach = reach >= frame.limits.x ? min(reach * kernel_reach(), float(kBlurTile * kMostBlurTiles)) : 0.0;
   bool listed = reach > 0.0 || (own.x >= frame.limits.x && nearest - farthest > apart);
   reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : -1.0, nearest);
+  uint item = pack_tile(tile);
   if (listed) {
-    uint place = atomicAdd(list[kListCountAt], 1u);
-    list[kListFirstAt + place] = uint(tile.y * count.x + tile.x);
-    if (place < kListMostGroups) {
-      atomicAdd(list[0], 1u);
+    if (most >= kernel_reach() * least_wide()) {
+      APPEND_TILE(wide_layered, item, 1u)
+    } else {
+      APPEND_TILE(layered, item, 1u)
     }
+  } else if (own.x >= least_wide()) {
+    APPEND_TILE(blurred, item, 1u)
+  } else if (own.x >= frame.limits.x) {
+    APPEND_TILE(narrow, item, 1u)
+  }
+  if (kRate > 1 && beside >= kWideBlur) {
+    APPEND_TILE(squared, item, kSquaredTiles)
   }
 }

@@ -1,62 +1,31 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What each tile of a picture holds: its largest blur, its nearest and farthest point, the largest blur of what lies
-// nearest; its means over squares of 2, 4 and
-// 8 pixels, the levels that wide blurs gather from; and, of squares of 2 pixels, the mean of what lies nearest.
+// nearest. Tiles in focus go out as they are, to the bit. An invocation for each tile.
 #include "render/shaders/gather.glsl"
+#include "render/shaders/blurred_out.glsl"
 
-layout(std430, binding = 1) writeonly buffer Tiles { vec4 tiles[]; };
-layout(std430, binding = 2) writeonly buffer Levels { uvec2 levels[]; };
-layout(std430, binding = 3) writeonly buffer Nearest { uvec4 nearest_squares[]; };
-layout(std430, binding = 4) buffer Widest { uint widest; };  // bits of the picture's largest blur
+layout(std430, binding = 2) writeonly buffer Tiles { vec4 tiles[]; };
+layout(std430, binding = 3) buffer Wide { uint wide[]; };  // kWideGroupsAt, kWidestAt
 
-struct Mean {
-  vec3 radiance;
-  float count;
-};
-
-Tap tap_or_none(ivec2 q) {
-  ivec2 inside = min(q, frame.size.xy - 1);
-  Tap tap = tap_at(frame.view.x * frame.size.x * frame.size.y + inside.y * frame.size.x + inside.x);
-  tap.depth = inside == q ? tap.depth : -1.0;
-  return tap;
-}
-
-void leave_level(int level, ivec2 at, Mean mean) {
-  vec3 radiance = mean.radiance / max(mean.count, 1.0);
-  levels[blur_level_start(tile_count(), level) + at.y * blur_level_width(tile_count(), level) + at.x] =
-      uvec2(packHalf2x16(radiance.rg), packHalf2x16(vec2(radiance.b, mean.count > 0.0 ? 1.0 : 0.0)));
-}
-
-// The mean of a square; beside it that of those of its pixels that share the nearest depth.
-Mean leave_square(ivec2 corner, Tap taps[4], out vec2 nearest_and_reach) {
-  float front = -1.0;
-  for (int k = 0; k < 4; ++k) {
-    front = max(front, taps[k].depth < 0.0 ? -1.0 : nearness(taps[k].depth));
-  }
-  Mean all = Mean(vec3(0.0), 0.0);
-  vec3 radiance = vec3(0.0);
-  vec3 ellipse = vec3(0.0);
-  float here = 0.0;
-  float count = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    if (taps[k].depth >= 0.0) {
-      all.radiance += taps[k].radiance;
-      all.count += 1.0;
-      float w = (front - nearness(taps[k].depth)) * frame.limits.w > kBlurParallax ? 0.0 : 1.0;
-      radiance += w * taps[k].radiance;
-      ellipse += w * taps[k].ellipse;
-      here += w * nearness(taps[k].depth);
-      count += w;
+// Reach, nearest, farthest, reach of what lies within a depth of the nearest so far.
+vec4 extremes(ivec2 corner, ivec2 within, int base) {
+  float apart = kBlurParallax / frame.limits.w;  // D
+  vec4 tile = vec4(0.0, 0.0, 1e30, 0.0);
+  for (int row = 0; row < within.y; ++row) {
+    int at = base + (corner.y + row) * frame.size.x + corner.x;
+    for (int column = 0; column < within.x; ++column) {
+      Tap tap = tap_at(at + column);
+      if (tap.depth >= 0.0) {
+        float reach = major(tap.ellipse);
+        float here = nearness(tap.depth);
+        tile.w = max(here > tile.y + apart ? 0.0 : tile.w, here >= tile.y - apart ? reach : 0.0);
+        tile.xy = max(tile.xy, vec2(reach, here));
+        tile.z = min(tile.z, here);
+      }
     }
   }
-  leave_level(1, corner / 2, all);
-  float part = 1.0 / max(count, 1.0);
-  nearest_and_reach = vec2(part * here, major(part * ellipse));
-  ivec2 at = corner / 2;
-  nearest_squares[at.y * blur_level_width(tile_count(), 1) + at.x] =
-      pack_square(Square(part * radiance, 0.25 * count, part * ellipse, part * here));
-  return all;
+  return tile;
 }
 
 void main() {
@@ -64,38 +33,22 @@ void main() {
   if (any(greaterThanEqual(tile, tile_count()))) {
     return;
   }
-  float reach = 0.0;
-  float nearest = 0.0;
-  float farthest = 1e30;
-  vec2 squares[16];
-  Mean eight = Mean(vec3(0.0), 0.0);
-  for (int four_at = 0; four_at < 4; ++four_at) {
-    Mean four = Mean(vec3(0.0), 0.0);
-    for (int two_at = 0; two_at < 4; ++two_at) {
-      ivec2 corner = kBlurTile * tile + 4 * ivec2(four_at & 1, four_at >> 1) + 2 * ivec2(two_at & 1, two_at >> 1);
-      Tap taps[4];
-      for (int k = 0; k < 4; ++k) {
-        taps[k] = tap_or_none(corner + ivec2(k & 1, k >> 1));
-        if (taps[k].depth >= 0.0) {
-          float here = nearness(taps[k].depth);
-          reach = max(reach, major(taps[k].ellipse));
-          nearest = max(nearest, here);
-          farthest = min(farthest, here);
-        }
-      }
-      Mean two = leave_square(corner, taps, squares[4 * four_at + two_at]);
-      four = Mean(four.radiance + two.radiance, four.count + two.count);
+  int base = frame.view.x * frame.size.x * frame.size.y;
+  ivec2 corner = kBlurTile * tile;
+  ivec2 within = min(ivec2(kBlurTile), frame.size.xy - corner);
+  if (kTaps != 0) {
+    vec4 found = extremes(corner, within, base);
+    tiles[tile.y * tile_count().x + tile.x] = found;
+    atomicMax(wide[kWidestAt], floatBitsToUint(found.x));
+    if (found.x >= least_wide()) {
+      wide[kWideGroupsAt] = gl_NumWorkGroups.x;
     }
-    leave_level(2, 2 * tile + ivec2(four_at & 1, four_at >> 1), four);
-    eight = Mean(eight.radiance + four.radiance, eight.count + four.count);
+    within.y = found.x < frame.limits.x ? within.y : 0;
   }
-  leave_level(3, tile, eight);
-  atomicMax(widest, floatBitsToUint(reach));
-  float reach_of_nearest = 0.0;
-  for (int k = 0; k < 16; ++k) {
-    if ((nearest - squares[k].x) * frame.limits.w <= kBlurParallax) {
-      reach_of_nearest = max(reach_of_nearest, squares[k].y);
+  for (int row = 0; row < within.y; ++row) {
+    int at = base + (corner.y + row) * frame.size.x + corner.x;
+    for (int column = 0; column < within.x; ++column) {
+      leave_sharp(at + column, texelFetch(pixels, at + column).xy);
     }
   }
-  tiles[tile.y * tile_count().x + tile.x] = vec4(reach, nearest, farthest, reach_of_nearest);
 }

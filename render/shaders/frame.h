@@ -53,15 +53,22 @@ const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alon
 
 // Approximate defocus looks at a picture tile by tile.
 const int kBlurTile = 8;         // px a side
+const uint kListAcross = 32768u; // workgroups of a row that goes through a list of tiles, if there are more than a row
+const uint kSquaredTiles = 4u;   // that a workgroup gathers squares of 2 pixels in
 const int kMostBlurTiles = 16;   // as far as a tile looks for blur that reaches it
 const float kBlurParallax = 0.5; // px that the pupil's half may set apart what counts as one depth
 const float kNearestFill = 1.0; // px^-2: how soon light behind an edge counts less with distance
+const uint kWideGroupsAt = 0u;   // whether a picture has wide blurs: how many groups of tiles across, or 0,
+const uint kWidestAt = 3u;       // and the bits of its largest
 const float kWideBlur = 6.0;     // px, a minor semi-axis from which neighbours may share a gather
 
-// Means over squares of 2, 4 and 8 pixels: level after level, whole tiles, row by row.
+// A picture that wide blurs gather from, of texels like traced pixels, row by row: the pixels themselves in whole tiles;
+// means over squares of 2, 4 and 8 pixels; and of squares of 2 pixels the mean of what lies nearest.
+const int kWideTexels = 101;  // a tile
 #ifndef __cplusplus
 int blur_level_width(ivec2 tiles, int level) { return tiles.x * (kBlurTile >> level); }
 int blur_level_start(ivec2 tiles, int level) {
-  return tiles.x * tiles.y * (level > 2 ? 20 : (level > 1 ? 16 : 0));
+  return tiles.x * tiles.y * (level > 1 ? (level > 2 ? 84 : 80) : (level > 0 ? 64 : 0));
 }
+int blur_nearest_start(ivec2 tiles) { return 85 * tiles.x * tiles.y; }
 #endif

@@ -10,6 +10,7 @@ layout(constant_id = 0) const int kTaps = 0;  // about the most of a gathered bl
 layout(constant_id = 1) const uint kGaussian = 0u;
 layout(constant_id = 2) const uint kEncode = 0u;  // 1: to the display's bytes, 0: to linear radiance
 layout(constant_id = 3) const int kRate = 1;  // px between gathered ones where the minor semi-axis is kWideBlur or more
+layout(constant_id = 4) const uint kWide = 0u;  // 1: binding 0 is a picture that wide blurs gather from (frame.h)
 layout(binding = 0) uniform usamplerBuffer pixels;
 
 const float kPi = 3.14159265358979;
@@ -65,6 +66,21 @@ float major(vec3 s) { return 0.5 * (s.x + s.z) + sqrt(0.25 * (s.x - s.z) * (s.x 
 
 ivec2 tile_count() { return (frame.size.xy + kBlurTile - 1) / kBlurTile; }
 
+// A tile in a list: two halves of a word (listed_tiles.glsl).
+uint pack_tile(ivec2 tile) { return uint(tile.x | tile.y << 16); }
+
+// Where the view's pixels start in binding 0, and from row to row.
+int first_pixel() { return kWide != 0u ? 0 : frame.view.x * frame.size.x * frame.size.y; }
+int pixels_a_row() { return kWide != 0u ? blur_level_width(tile_count(), 0) : frame.size.x; }
+
+// The least major semi-axis that has a use for means over squares (level_of, kWideBlur). A Gaussian's weights are made
+// in the kernels of wide blurs alone.
+float least_wide() {
+  float least = sqrt(2.0 * float(max(kTaps, 1)) / kPi);
+  least = kRate > 1 ? min(least, kWideBlur) : least;
+  return max(kGaussian != 0u ? 0.0 : least, frame.limits.x);
+}
+
 // An ellipse whose second moments are less by `variance` (px^2) along every direction: what the taps' own size adds.
 vec3 shrunk(vec3 s, float variance) {
   float a = major(s);
@@ -88,12 +104,17 @@ struct Rows {
   float top;    // the ellipse's extent upwards
   float lean;   // how far a row's middle moves with each row
   float width;  // half of the middle row
+  float softness;  // a row's ends are as wide as a cell and what the row leans within its height
+  float inverse_top, inverse_softness;
 };
 
 Rows rows_of(vec3 s, vec2 centre) {
   float top = max(sqrt(s.y * s.y + s.z * s.z), 0.02);
   float det = max(s.x * s.z - s.y * s.y, 0.0);
-  return Rows(centre, top, s.y * (s.x + s.z) / (top * top), max(det / top, 0.02));
+  float inverse_top = 1.0 / top;
+  float lean = s.y * (s.x + s.z) * inverse_top * inverse_top;
+  float softness = sqrt(1.0 + lean * lean);
+  return Rows(centre, top, lean, max(det * inverse_top, 0.02), softness, inverse_top, 1.0 / softness);
 }
 
 // First and last row, or cell of a row.
@@ -104,10 +125,13 @@ ivec2 row_range(Rows rows) {
   return cells_between(rows.centre.y - top, rows.centre.y + top);
 }
 
-// The integral of the unit circle's half width.
+// The integral of the unit circle's half width, (y sqrt(1 - y^2) + asin y) / 2, to 2e-5: what is left of a quarter of
+// the disc goes as the distance from its rim to 3/2.
 float half_widths(float y) {
-  float u = clamp(y, -1.0, 1.0);
-  return 0.5 * (u * sqrt(1.0 - u * u) + asin(u));
+  float t = max(1.0 - abs(y), 0.0);
+  float left = t * sqrt(t) * (0.942819 + t * (-0.1417378 + t * (-0.01112917 - t * 0.004538979)));
+  float within = 0.25 * kPi - left;
+  return y < 0.0 ? -within : within;
 }
 
 // From where to where a row's part of the ellipse goes, as its mean over the row's height.
@@ -116,16 +140,13 @@ vec2 row_span(Rows rows, int row) {
   float middle = rows.centre.x + rows.lean * y;
   float part = kernel_reach();
   if (kGaussian == 0u) {
-    part = rows.top * (half_widths((y + 0.5) / rows.top) - half_widths((y - 0.5) / rows.top));
+    part = rows.top * (half_widths((y + 0.5) * rows.inverse_top) - half_widths((y - 0.5) * rows.inverse_top));
   }
   return middle + rows.width * vec2(-part, part);
 }
 
-// A row's ends are as wide as a cell and what the row leans within its height.
-float row_softness(Rows rows) { return sqrt(1.0 + rows.lean * rows.lean); }
-
 ivec2 row_cells(Rows rows, vec2 span) {
-  float beyond = 0.5 * row_softness(rows) - 0.5;
+  float beyond = 0.5 * rows.softness - 0.5;
   return cells_between(span.x - beyond, span.y + beyond);
 }
 
@@ -134,7 +155,7 @@ float cell_weight(Rows rows, vec2 span, int row, int cell) {
     vec2 inner = vec2((float(cell) - 0.5 * (span.x + span.y)) / rows.width, (float(row) - rows.centre.y) / rows.top);
     return exp(-2.0 * dot(inner, inner));
   }
-  vec2 past = clamp((float(cell) - span) / row_softness(rows) + 0.5, 0.0, 1.0);
+  vec2 past = clamp((float(cell) - span) * rows.inverse_softness + 0.5, 0.0, 1.0);
   return past.x - past.y;
 }
 

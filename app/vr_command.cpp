@@ -7,9 +7,9 @@
 #include "app/mode_option.hpp"
 #include "app/option_values.hpp"
 #include "app/output_place.hpp"
-#include "app/vr_options.hpp"
-#include "app/vr_report.hpp"
-#include "app/vr_run.hpp"
+#include "app/vr/options.hpp"
+#include "app/vr/report.hpp"
+#include "app/vr/run.hpp"
 #include "tracking/input_error.hpp"
 
 namespace app {

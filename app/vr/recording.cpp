@@ -1,4 +1,4 @@
-#include "app/vr_recording.hpp"
+#include "app/vr/recording.hpp"
 
 namespace app {
 

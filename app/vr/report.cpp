@@ -1,4 +1,4 @@
-#include "app/vr_report.hpp"
+#include "app/vr/report.hpp"
 
 #include <algorithm>
 #include <cmath>

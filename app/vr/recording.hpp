@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "app/live_wearer.hpp"
 #include "app/recording/session_recorder.hpp"
 #include "app/recording/session_replay.hpp"
+#include "app/vr/live_wearer.hpp"
 
 namespace app {
 

@@ -1,4 +1,4 @@
-#include "app/live_wearer.hpp"
+#include "app/vr/live_wearer.hpp"
 
 #include <utility>
 

@@ -1,8 +1,8 @@
 // The session in the headset from beginning to end.
 #pragma once
 
-#include "app/vr_options.hpp"
-#include "app/vr_report.hpp"
+#include "app/vr/options.hpp"
+#include "app/vr/report.hpp"
 
 namespace app {
 

@@ -1,4 +1,4 @@
-#include "app/vr_setup.hpp"
+#include "app/vr/setup.hpp"
 
 #include <algorithm>
 #include <cmath>

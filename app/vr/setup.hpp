@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/recording/session_replay.hpp"
-#include "app/vr_options.hpp"
+#include "app/vr/options.hpp"
 #include "render/live_frame.hpp"
 #include "xr/spaces.hpp"
 

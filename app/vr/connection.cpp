@@ -1,0 +1,140 @@
+#include "app/vr/connection.hpp"
+
+#include <array>
+#include <chrono>
+#include <glm/geometric.hpp>
+
+#include "app/device.hpp"
+#include "app/headset_device.hpp"
+#include "app/vr/setup.hpp"
+#include "app/vr/stop_signal.hpp"
+#include "render/image/png.hpp"
+
+namespace app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using tracking::Side;
+
+}  // namespace
+
+VrConnection::VrConnection(VrWorld& world)
+    : world_(world),
+      instance_({.wanted_extensions = wanted_extensions()}),
+      device_(open_headset_device(
+          instance_,
+          {.device = world.options().device, .validation = kValidation, .pipeline_cache = pipeline_cache_file()})),
+      renderer_(device_, world.scene(),
+                {.traversal = render::Traversal::automatic, .traversal_file = traversal_file()}),
+      session_(instance_, graphics_of(device_)),
+      bindings_(instance_),
+      gaze_actions_(instance_, bindings_),
+      loop_(session_, {.space = space_of(world.options().space),
+                       .size = size_of_images(world.options(), world.replay(), instance_)}),
+      world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())),
+      pictures_(renderer_, loop_, world.config()) {
+  bindings_.attach(session_);
+  gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
+  loop_.while_idle([this] { return !stop_if_wanted(); });
+  describe();
+  world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
+}
+
+void VrConnection::describe() {
+  VrReport& report = world_.report();
+  report.runtime = instance_.runtime_name();
+  report.headset = instance_.headset_name();
+  report.device = device_.name();
+  report.space = name_of(loop_.space().type());
+  report.width = loop_.swapchain(Side::left).width();
+  report.height = loop_.swapchain(Side::left).height();
+}
+
+void VrConnection::show_frames() {
+  while (const auto frame = loop_.next()) {
+    stop_if_wanted();
+    world_.note_time(xr::seconds(frame->display_time));
+    if (frame->should_render && !world_.is_finished()) {
+      show(*frame);
+    } else {
+      loop_.skip(*frame);
+      ++world_.report().skipped;
+    }
+    if (world_.is_finished() && !exit_requested_) {
+      exit_requested_ = true;
+      session_.request_exit();
+    }
+  }
+}
+
+bool VrConnection::stop_if_wanted() {
+  if (StopOnSignal::wanted() && !exit_requested_) {
+    exit_requested_ = true;
+    session_.request_exit();
+  }
+  return session_.is_over();
+}
+
+void VrConnection::place(const xr::Frame& frame) {
+  HeadAndViews where;
+  where.world_from_head = world_from_space_ * frame.space_from_head;
+  for (const Side side : {Side::right, Side::left}) {
+    const auto i = static_cast<std::size_t>(side);
+    where.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
+  }
+  if (frame.new_from_old) {
+    world_.record_event("recentred");
+  }
+  world_.place(xr::seconds(frame.display_time), where, gaze_input_->read(loop_.view_space(), frame.display_time));
+}
+
+void VrConnection::prepare_first(const xr::Frame& frame) {
+  world_.warn(glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position));
+  pictures_.prepare(world_.setup());
+  world_.report().guard_px = pictures_.guard_px();
+  prepared_ = true;
+}
+
+void VrConnection::wait_for_device() {
+  for (const render::vk::StageTime& stage : pictures_.wait()) {
+    world_.report().device_stage(stage.name).add(stage.milliseconds);
+  }
+}
+
+void VrConnection::show(const xr::Frame& frame) {
+  Clock::time_point last = frame.woken;
+  const auto mark = [&](const char* part) {
+    const auto now = Clock::now();
+    world_.report().host_part(part).add(std::chrono::duration<double, std::milli>(now - last).count());
+    last = now;
+  };
+  mark("locate");
+  bindings_.sync(session_);
+  place(frame);
+  mark("place");
+  if (!prepared_) {
+    prepare_first(frame);
+    last = Clock::now();
+  }
+  wait_for_device();
+  mark("device wait");
+  const std::array<std::uint32_t, 2> images = loop_.acquire();
+  mark("image wait");
+  pictures_.start(world_.setup(), images);
+  mark("submit");
+  loop_.show(frame);
+  mark("hand over");
+  ++world_.report().shown;
+}
+
+void VrConnection::finish() {
+  wait_for_device();
+  if (!world_.options().screenshot.empty()) {
+    if (const auto picture = pictures_.read_picture()) {
+      render::write_png(world_.options().screenshot, *picture);
+    }
+  }
+  close_device(device_);
+}
+
+}  // namespace app

@@ -1,0 +1,48 @@
+// One runtime and what lives and dies with it: instance, device, renderer, session, input, frame loop, pictures.
+#pragma once
+
+#include <memory>
+
+#include "app/vr/pictures.hpp"
+#include "app/vr/world.hpp"
+#include "xr/actions.hpp"
+#include "xr/frame_loop.hpp"
+#include "xr/gaze_input.hpp"
+
+namespace app {
+
+class VrConnection {
+ public:
+  // Throws xr::Error and render::vk::DeviceError for what fails here. Refers to the world.
+  explicit VrConnection(VrWorld& world);
+
+  // Until the session ends; xr::LostError where it is lost.
+  void show_frames();
+
+  // Once it has ended: the last picture's times and the screenshot, and what was compiled is kept.
+  void finish();
+
+ private:
+  void describe();
+  bool stop_if_wanted();
+  void show(const xr::Frame& frame);
+  void place(const xr::Frame& frame);
+  void prepare_first(const xr::Frame& frame);
+  void wait_for_device();
+
+  VrWorld& world_;
+  xr::Instance instance_;
+  render::vk::Device device_;
+  render::Renderer renderer_;
+  xr::Session session_;
+  xr::ActionBindings bindings_;
+  xr::GazeActions gaze_actions_;
+  std::unique_ptr<xr::GazeInput> gaze_input_;  // once the bindings are attached
+  xr::FrameLoop loop_;
+  tracking::Pose world_from_space_;
+  Pictures pictures_;
+  bool prepared_ = false;
+  bool exit_requested_ = false;
+};
+
+}  // namespace app

@@ -26,7 +26,8 @@ void FrameJob::record_blur(vk::Commands& commands) {
   const BlurVariant variant{.taps = blurs ? static_cast<std::uint32_t>(accuracy.taps) : 0U,
                             .gaussian = accuracy.kernel == BlurKernel::gaussian,
                             .rate = accuracy.rate,
-                            .encode = !config_.keep_radiance};
+                            .encode = !config_.keep_radiance,
+                            .listed_tiles = variant_.listed_tiles};
   const vk::Buffer& blurred = config_.keep_radiance ? out_.radiance : out_.display;
   // Views share the memory of what is known of their tiles.
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {

@@ -44,6 +44,9 @@ class FrameJob {
   void find_hits(vk::Commands& commands);
   void find_layers(vk::Commands& commands, const BlurVariant& variant);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void dispatch_blocks(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void dispatch_tiles(vk::Commands& commands, const vk::Kernel& kernel, Buffers buffers, int side,
+                      std::size_t counts_at);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);
   void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, const vk::Buffer& list);

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Approximate defocus where all that a blur reaches lies at one depth: the mean over the pixel's own ellipse.
+#define SHOWN_TILES_AT 5
 #include "render/shaders/gather.glsl"
 #include "render/shaders/blurred_out.glsl"
 

@@ -18,10 +18,12 @@ namespace {
 using tracking::InputError;
 
 constexpr int kMostSamples = 1024, kMostFrames = 100'000'000;
+constexpr double kLongestWait_s = 86400.0;
 
 void check_options(const VrOptions& options) {
   check_picture_options(options.picture);
   check_range("--samples", options.samples, 1, kMostSamples, "");
+  check_range("--reconnect", options.reconnect_s, 0.0, kLongestWait_s, "s");
   if (options.frames) {
     check_range("--frames", *options.frames, 1, kMostFrames, "");
   }
@@ -86,6 +88,10 @@ Action add_vr_command(CLI::App& program) {
       ->check(CLI::IsMember({"auto", "local_floor", "stage", "local"}))
       ->capture_default_str();
   command->add_option("--frames", options->frames, "End after this many pictures [until the session ends]");
+  command
+      ->add_option("--reconnect", options->reconnect_s,
+                   "Seconds that a runtime which went away is waited for; the session and its recording then go on")
+      ->capture_default_str();
   auto* record = command->add_option("--record", options->record,
                                      "FILE.csv of poses, gaze, pupils and accommodation, a line a picture, and\n"
                                      "FILE.csv.json of views, rung, pair and events");

@@ -42,4 +42,12 @@ glm::dvec3 DirectionFilter::see(double time, const glm::dvec3& direction) {
   return *value_;
 }
 
+void DirectionFilter::turn(const glm::dquat& new_from_old) {
+  if (value_) {
+    value_ = new_from_old * *value_;
+  }
+  last_ = new_from_old * last_;
+  velocity_ = new_from_old * velocity_;
+}
+
 }  // namespace tracking

@@ -2,6 +2,7 @@
 // exponential in time, so that irregular samples weigh by the time they stand for.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -19,6 +20,9 @@ class DirectionFilter {
   // The direction is known to have jumped: the next sample is taken as it is, and those behind it are averaged until
   // they are as many as the filter remembers.
   void restart() { samples_ = 0; }
+
+  // All directions so far are to be seen in axes that have turned.
+  void turn(const glm::dquat& new_from_old);
 
   [[nodiscard]] const std::optional<glm::dvec3>& value() const { return value_; }
 

@@ -134,6 +134,17 @@ void GazeFollower::return_to_head(double interval) {
   }
 }
 
+void GazeFollower::turn_world(const glm::dquat& new_from_old) {
+  for (Heading& heading : heads_) {
+    heading.world_from_head = new_from_old * heading.world_from_head;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    target_[i].turn(new_from_old);
+    pupil_[i].turn(new_from_old);
+  }
+  detector_.turn(new_from_old);
+}
+
 FollowedGaze GazeFollower::step(double time, const Pose& world_from_head, const std::optional<GazeSample>& sample) {
   if (!std::isfinite(time) || (time_ && time < *time_)) {
     return gaze_;

@@ -26,11 +26,15 @@ struct GazeSample {
 enum class GazeSource {
   tracker,  // a sample is at most as old as trackers are late
   held,     // the last one, kept through a blink or a loss
-  head      // nothing to go by: straight ahead, reached smoothly
+  head,     // nothing to go by: straight ahead, reached smoothly
+  target    // no tracker: at a thing of the scene, as the wearer chose
 };
 
+inline constexpr std::array kGazeSources{GazeSource::tracker, GazeSource::held, GazeSource::head, GazeSource::target};
+
 [[nodiscard]] constexpr const char* name(GazeSource source) {
-  return source == GazeSource::tracker ? "tracker" : source == GazeSource::held ? "held" : "head";
+  constexpr std::array kNames{"tracker", "held", "head", "target"};  // in the order of the enumeration
+  return kNames[static_cast<std::size_t>(source)];
 }
 
 // Directions are unit, in head axes, before the lens, indexed by Side; with one line for both eyes they are equal.
@@ -53,6 +57,9 @@ class GazeFollower {
   // not finite or lies before the last frame's gives the last answer again; a pose that is not finite is taken as
   // unchanged.
   FollowedGaze step(double time, const Pose& world_from_head, const std::optional<GazeSample>& sample);
+
+  // The world has turned about the head (the scene was recentred): the eyes stay as they were in the head.
+  void turn_world(const glm::dquat& new_from_old);
 
  private:
   struct Lines {

@@ -249,10 +249,10 @@ class Parser {
   }
 
   [[nodiscard]] GazeSource source() const {
-    for (const GazeSource source : {GazeSource::tracker, GazeSource::held, GazeSource::head}) {
+    for (const GazeSource source : kGazeSources) {
       if (fields_[source_column_] == name(source)) return source;
     }
-    fail(kSourceColumn, quoted(fields_[source_column_]) + " is not allowed; tracker, held or head");
+    fail(kSourceColumn, quoted(fields_[source_column_]) + " is not allowed; target, tracker, held or head");
   }
 
   const std::string& file_;

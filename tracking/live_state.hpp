@@ -69,6 +69,9 @@ class LiveState {
   // again.
   const EyeState& step(const Frame& frame, const Look& look);
 
+  // See GazeFollower::turn_world.
+  void turn_world(const glm::dquat& new_from_old) { follower_.turn_world(new_from_old); }
+
   [[nodiscard]] const EyeState& state() const { return state_; }
 
  private:

@@ -25,6 +25,12 @@ void SaccadeDetector::restart() {
   phase_ = GazePhase::fixation;
 }
 
+void SaccadeDetector::turn(const glm::dquat& new_from_old) {
+  for (Sample& sample : samples_) {
+    sample.direction = new_from_old * sample.direction;
+  }
+}
+
 void SaccadeDetector::remember_speed() {
   speeds_.push_back(speed_);
   if (speeds_.size() > kMostSpeeds) {

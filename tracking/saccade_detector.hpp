@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "tracking/live_config.hpp"
@@ -21,6 +22,9 @@ class SaccadeDetector {
 
   // After a loss: what came before says nothing about speed. The noise is remembered.
   void restart();
+
+  // All directions so far are to be seen in axes that have turned.
+  void turn(const glm::dquat& new_from_old);
 
   [[nodiscard]] GazePhase phase() const { return phase_; }
   [[nodiscard]] double threshold() const { return threshold_; }  // rad/s, in force

@@ -159,6 +159,8 @@ std::string_view source_name(const tracking::FollowedGaze& gaze) {
       return gaze.two_lines ? "per-eye" : "combined";
     case tracking::GazeSource::held:
       return "held";
+    case tracking::GazeSource::target:
+      return "target";
     case tracking::GazeSource::head:
       break;
   }

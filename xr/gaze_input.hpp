@@ -68,7 +68,7 @@ class GazeInput {
   return static_cast<double>(time) * 1e-9;
 }
 
-// Whose gaze a picture is drawn for, as the user is told: "per-eye", "combined", "held", "head".
+// Whose gaze a picture is drawn for, as the user is told: "per-eye", "combined", "held", "target", "head".
 [[nodiscard]] std::string_view source_name(const tracking::FollowedGaze& gaze);
 
 }  // namespace xr

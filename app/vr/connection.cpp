@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <glm/geometric.hpp>
 
 #include "app/device.hpp"
@@ -13,8 +14,22 @@
 namespace app {
 namespace {
 
+// A runtime after a lost one goes on with the images of the first.
+std::array<int, 2> size_of_images(const VrWorld& world, const xr::Instance& instance) {
+  const VrReport& report = world.report();
+  return report.width > 0 ? std::array{report.width, report.height}
+                          : size_of_images(world.options(), world.replay(), instance);
+}
+
 using Clock = std::chrono::steady_clock;
 using tracking::Side;
+
+// ms that this thread has had of a processor.
+double processor_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace
 
@@ -29,8 +44,7 @@ VrConnection::VrConnection(VrWorld& world)
       session_(instance_, graphics_of(device_)),
       bindings_(instance_),
       gaze_actions_(instance_, bindings_),
-      loop_(session_, {.space = space_of(world.options().space),
-                       .size = size_of_images(world.options(), world.replay(), instance_)}),
+      loop_(session_, {.space = space_of(world.options().space), .size = size_of_images(world, instance_)}),
       world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())),
       pictures_(renderer_, loop_, world.config()) {
   bindings_.attach(session_);
@@ -51,11 +65,11 @@ void VrConnection::describe() {
 }
 
 void VrConnection::show_frames() {
-  while (const auto frame = loop_.next()) {
+  while (const auto frame = next_frame()) {
     stop_if_wanted();
-    world_.note_time(xr::seconds(frame->display_time));
+    const double time = world_.session_time(xr::seconds(frame->display_time));
     if (frame->should_render && !world_.is_finished()) {
-      show(*frame);
+      show(*frame, time);
     } else {
       loop_.skip(*frame);
       ++world_.report().skipped;
@@ -67,6 +81,11 @@ void VrConnection::show_frames() {
   }
 }
 
+std::optional<xr::Frame> VrConnection::next_frame() {
+  processor_before_ = processor_ms();
+  return loop_.next();
+}
+
 bool VrConnection::stop_if_wanted() {
   if (StopOnSignal::wanted() && !exit_requested_) {
     exit_requested_ = true;
@@ -75,7 +94,7 @@ bool VrConnection::stop_if_wanted() {
   return session_.is_over();
 }
 
-void VrConnection::place(const xr::Frame& frame) {
+void VrConnection::place(const xr::Frame& frame, double time) {
   HeadAndViews where;
   where.world_from_head = world_from_space_ * frame.space_from_head;
   for (const Side side : {Side::right, Side::left}) {
@@ -83,9 +102,11 @@ void VrConnection::place(const xr::Frame& frame) {
     where.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
   }
   if (frame.new_from_old) {
+    world_.head_was_moved();
     world_.record_event("recentred");
   }
-  world_.place(xr::seconds(frame.display_time), where, gaze_input_->read(loop_.view_space(), frame.display_time));
+  world_.place(time, where, gaze_input_->read(loop_.view_space(), frame.display_time));
+  world_.watch_reprojection(time, where, xr::seconds(frame.period));
 }
 
 void VrConnection::prepare_first(const xr::Frame& frame) {
@@ -101,30 +122,42 @@ void VrConnection::wait_for_device() {
   }
 }
 
-void VrConnection::show(const xr::Frame& frame) {
+void VrConnection::show(const xr::Frame& frame, double time) {
+  VrReport& report = world_.report();
+  const auto since = [](Clock::time_point then) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
+  };
   Clock::time_point last = frame.woken;
   const auto mark = [&](const char* part) {
-    const auto now = Clock::now();
-    world_.report().host_part(part).add(std::chrono::duration<double, std::milli>(now - last).count());
-    last = now;
+    report.host_part(part).add(since(last));
+    last = Clock::now();
   };
   mark("locate");
   bindings_.sync(session_);
-  place(frame);
+  place(frame, time);
   mark("place");
-  if (!prepared_) {
+  const bool is_first = !prepared_;
+  if (is_first) {
     prepare_first(frame);
     last = Clock::now();
   }
+  double processor = processor_ms() - processor_before_;
   wait_for_device();
   mark("device wait");
   const std::array<std::uint32_t, 2> images = loop_.acquire();
   mark("image wait");
+  const double processor_after_waits = processor_ms();
   pictures_.start(world_.setup(), images);
   mark("submit");
+  const double to_submit = since(frame.woken);
   loop_.show(frame);
   mark("hand over");
-  ++world_.report().shown;
+  processor += processor_ms() - processor_after_waits;
+  if (!is_first) {  // it compiles and draws beforehand
+    report.wait_to_submit.add(to_submit);
+    report.frame_code.add(processor);
+  }
+  ++report.shown;
 }
 
 void VrConnection::finish() {

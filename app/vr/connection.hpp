@@ -24,9 +24,11 @@ class VrConnection {
 
  private:
   void describe();
+  std::optional<xr::Frame> next_frame();
   bool stop_if_wanted();
-  void show(const xr::Frame& frame);
-  void place(const xr::Frame& frame);
+  // time: s, the session's
+  void show(const xr::Frame& frame, double time);
+  void place(const xr::Frame& frame, double time);
   void prepare_first(const xr::Frame& frame);
   void wait_for_device();
 
@@ -42,6 +44,7 @@ class VrConnection {
   tracking::Pose world_from_space_;
   Pictures pictures_;
   bool prepared_ = false;
+  double processor_before_ = 0.0;  // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;
 };
 

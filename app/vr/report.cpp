@@ -16,18 +16,26 @@ TimeRing& find_or_add(Times& times, const std::string& name) {
   return found != times.end() ? found->second : times.emplace_back(name, TimeRing{}).second;
 }
 
+nlohmann::ordered_json json_of(const TimeRing& ring) {
+  return {{"median", ring.quantile(0.5)}, {"p99", ring.quantile(0.99)}, {"max", ring.quantile(1.0)}};
+}
+
 nlohmann::ordered_json json_of(const Times& times) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const auto& [name, ring] : times) {
-    json[name] = {{"median", ring.quantile(0.5)}, {"p99", ring.quantile(0.99)}};
+    json[name] = json_of(ring);
   }
   return json;
 }
 
+void print(std::ostream& out, const char* where, const std::string& name, const TimeRing& ring) {
+  out << std::left << std::setw(8) << where << std::setw(24) << name << std::right << std::setw(10)
+      << ring.quantile(0.5) << std::setw(10) << ring.quantile(0.99) << '\n';
+}
+
 void print(std::ostream& out, const char* where, const Times& times) {
   for (const auto& [name, ring] : times) {
-    out << std::left << std::setw(8) << where << std::setw(14) << name << std::right << std::setw(10)
-        << ring.quantile(0.5) << std::setw(10) << ring.quantile(0.99) << '\n';
+    print(out, where, name, ring);
   }
 }
 
@@ -41,11 +49,11 @@ std::string sources_text(const VrReport& report) {
 
 }  // namespace
 
-void TimeRing::add(double milliseconds) {
+void TimeRing::add(double value) {
   if (times_.size() < kMost) {
-    times_.push_back(milliseconds);
+    times_.push_back(value);
   } else {
-    times_[next_] = milliseconds;
+    times_[next_] = value;
   }
   next_ = (next_ + 1) % kMost;
 }
@@ -76,8 +84,20 @@ std::string to_table(const VrReport& report) {
       << report.guard_px << " pixels around them\ngaze     " << sources_text(report) << "\nframes   " << report.shown
       << " shown, " << report.skipped << " without a picture\n";
   out << to_table(report.findings);
-  out << std::fixed << std::setprecision(3) << "\n                      ms median      p99\n";
+  if (report.reconnections > 0) {
+    out << "runtimes " << report.reconnections + 1 << ", the others after a loss\n";
+  }
+  out << std::fixed << std::setprecision(1);
+  if (!report.head_speed.empty()) {
+    out << "head     " << report.head_speed.quantile(0.5) << " deg/s (median), " << report.head_speed.quantile(1.0)
+        << " at most; reprojected by one frame, a picture behind these lenses is off by "
+        << report.reprojection_error.quantile(0.5) << " arcmin (median), " << report.reprojection_error.quantile(1.0)
+        << " at most\n";
+  }
+  out << std::setprecision(3) << "\n                                ms median      p99\n";
   print(out, "host", report.host);
+  print(out, "host", "xrWaitFrame to submit", report.wait_to_submit);
+  print(out, "host", "processor, without waits", report.frame_code);
   print(out, "device", report.device_stages);
   return out.str();
 }
@@ -94,7 +114,12 @@ std::string to_json(const VrReport& report) {
                                     {"frames_shown", report.shown},
                                     {"frames_skipped", report.skipped},
                                     {"host_ms", json_of(report.host)},
-                                    {"stages_ms", json_of(report.device_stages)}};
+                                    {"wait_to_submit_ms", json_of(report.wait_to_submit)},
+                                    {"frame_code_cpu_ms", json_of(report.frame_code)},
+                                    {"stages_ms", json_of(report.device_stages)},
+                                    {"head_speed_deg_s", json_of(report.head_speed)},
+                                    {"reprojection_error_arcmin", json_of(report.reprojection_error)},
+                                    {"reconnections", report.reconnections}};
   return json.dump(2) + "\n";
 }
 

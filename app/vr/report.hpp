@@ -10,12 +10,13 @@
 
 namespace app {
 
-// Times of one kind, ms; the last kMost of them are kept, so that a long session needs no more memory than a short one.
+// Values of one kind, a time in ms if nothing else is said; the last kMost of them are kept, so that a long session
+// needs no more memory than a short one.
 class TimeRing {
  public:
   static constexpr std::size_t kMost = 10000;
 
-  void add(double milliseconds);
+  void add(double value);
   [[nodiscard]] bool empty() const { return times_.empty(); }
   // fraction 0.5: the median. Of nothing: 0.
   [[nodiscard]] double quantile(double fraction) const;
@@ -34,6 +35,12 @@ struct VrReport {
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order
   std::vector<std::pair<std::string, TimeRing>> device_stages;
+  // From xrWaitFrame's return to the submission of the picture; and the processor time that this thread spent on the
+  // frame, waits for device and images left out.
+  TimeRing wait_to_submit, frame_code;
+  TimeRing head_speed;          // deg/s
+  TimeRing reprojection_error;  // arcmin, see ReprojectionWatch: of a runtime that reprojects by one period
+  int reconnections = 0;        // runtimes after the first
 
   [[nodiscard]] TimeRing& host_part(const std::string& name);
   [[nodiscard]] TimeRing& device_stage(const std::string& name);

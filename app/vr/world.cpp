@@ -1,5 +1,7 @@
 #include "app/vr/world.hpp"
 
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <iostream>
 
 #include "app/option_values.hpp"
@@ -46,11 +48,35 @@ void VrWorld::record_event(const std::string& what) {
   }
 }
 
-void VrWorld::place(double time, const HeadAndViews& where, const std::optional<tracking::GazeSample>& sample) {
+double VrWorld::session_time(double runtime_time) {
+  if (runtime_time <= 0.0) {
+    return last_time_;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (is_new_clock_) {
+    session_from_runtime_ = last_time_ + std::chrono::duration<double>(now - last_frame_).count() - runtime_time;
+    is_new_clock_ = false;
+  }
+  last_time_ = runtime_time + session_from_runtime_;
+  last_frame_ = now;
+  return last_time_;
+}
+
+void VrWorld::runtime_returned() {
+  is_new_clock_ = true;
+  reprojection_.forget();
+  record_event("runtime returned");
+  ++report_.reconnections;
+}
+
+void VrWorld::place(double time, const HeadAndViews& where, std::optional<tracking::GazeSample> sample) {
   if (replay_) {
     replay_frame(wearer_, replay_->frame(static_cast<std::size_t>(report_.shown)), where);
     ++report_.gaze_sources["replay"];
     return;
+  }
+  if (sample && sample->time) {
+    *sample->time += session_from_runtime_;
   }
   wearer_.step(time, where, sample);
   ++report_.gaze_sources[tracking::name(wearer_.state().source)];
@@ -58,6 +84,16 @@ void VrWorld::place(double time, const HeadAndViews& where, const std::optional<
     recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where),
                      options_.picture.accuracy, setup().pairs.front().name);
   }
+}
+
+void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double period) {
+  if (replay_) {
+    return;  // that head was another day's
+  }
+  reprojection_.see(time, where.world_from_head);
+  const double error = reprojection_.error(setup().lenses, setup().pairs, wearer_.state().gaze, period);
+  report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
+  report_.reprojection_error.add(glm::degrees(error) * 60.0);
 }
 
 void VrWorld::warn(double views_apart) {

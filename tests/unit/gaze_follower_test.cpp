@@ -247,4 +247,30 @@ TEST(GazeFollower, SingleMissesDoNotRestartTheFilter) {
   EXPECT_LE(farthest, 0.16);  // 0.12 deg is the greatest without misses; a seventh of the samples gone
 }
 
+// Where the scene is recentred, the world turns about the head: nothing of it is seen in the head, neither while a
+// sample comes in nor while one is held.
+TEST(GazeFollower, ATurnOfTheWorldMovesNoEyeInTheHead) {
+  GazeFollower still, turned;
+  const glm::dquat turn = tracking::orientation_from_yaw_pitch(70.0 * kDegree, 0.0);
+  for (int i = 0; i < 120; ++i) {
+    const double time = i * kFrame;
+    const Pose before = head_at_yaw(0.3 * i);
+    Pose after = before;
+    if (i >= 60) {
+      after.orientation = turn * after.orientation;
+    }
+    if (i == 60) {
+      turned.turn_world(turn);
+    }
+    const GazeSample sample = i < 100 ? combined(time - 0.02, towards(5.0 * std::sin(0.1 * i), 2.0)) : lost(time);
+    const FollowedGaze a = still.step(time, before, sample), b = turned.step(time, after, sample);
+    for (const std::size_t eye : {0U, 1U}) {
+      EXPECT_LE(off(a.target[eye], b.target[eye]), 1e-6) << i;  // degrees: rounding
+      EXPECT_LE(off(a.pupil[eye], b.pupil[eye]), 1e-6) << i;
+    }
+    EXPECT_EQ(a.phase, b.phase) << i;
+    EXPECT_EQ(a.source, b.source) << i;
+  }
+}
+
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -48,6 +49,10 @@ TEST(VrCommand, ShowsFramesOnARuntime) {
   EXPECT_EQ(report["space"], "local_floor");
   EXPECT_EQ(report["gaze_frames"]["head"], 4);
   EXPECT_GT(report["stages_ms"]["trace"]["median"], 0.0);
+  EXPECT_GT(report["wait_to_submit_ms"]["median"], 0.0);
+  EXPECT_GT(report["frame_code_cpu_ms"]["median"], 0.0);
+  EXPECT_GT(report["head_speed_deg_s"]["max"], 0.0);  // the simulated head wobbles
+  EXPECT_EQ(report["reprojection_error_arcmin"]["max"], 0.0) << "no lens is worn";
 }
 
 TEST(VrCommand, SaysHowToStartARuntimeThatIsNotThere) {
@@ -97,8 +102,8 @@ TEST(VrCommand, EndsWhenTheRuntimeIsKilled) {
       std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
       monado.kill();
     });
-    const ProgramResult result = vergence(
-        {"vr", "--size", "32x32", "--frames", "1000000", "--screenshot", (folder.path() / "last.png").string()});
+    const ProgramResult result = vergence({"vr", "--size", "32x32", "--frames", "1000000", "--reconnect", "0",
+                                           "--screenshot", (folder.path() / "last.png").string()});
     killer.join();
     EXPECT_FALSE(result.timed_out);
     EXPECT_EQ(result.signal, 0);
@@ -134,23 +139,29 @@ TEST(VrCommand, AReplayIsThePictureThatWasRecorded) {
   EXPECT_EQ(tracking::read_gaze_trace(file("a.csv")).rows.size(), 6U);
 }
 
+// Until a recording has its header and three frames.
+void wait_for_rows(const std::filesystem::path& trace) {
+  const auto stop = std::chrono::steady_clock::now() + kLimit;
+  const auto lines = [&] {
+    const std::string text = content_of(trace);
+    return std::ranges::count(text, '\n');
+  };
+  while (lines() < 4 && std::chrono::steady_clock::now() < stop) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
 // What was recorded before the runtime died is whole, and says how it ended.
 TEST(VrCommand, ARecordingOutlivesTheRuntime) {
   support::Monado monado;
   const support::TemporaryFolder folder;
   const std::filesystem::path trace = folder.path() / "a.csv";
   std::thread killer([&] {
-    const auto stop = std::chrono::steady_clock::now() + kLimit;
-    const auto lines = [&] {
-      const std::string text = content_of(trace);
-      return std::ranges::count(text, '\n');
-    };
-    while (lines() < 4 && std::chrono::steady_clock::now() < stop) {  // a header and three frames
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+    wait_for_rows(trace);
     monado.kill();
   });
-  const ProgramResult result = vergence({"vr", "--size", "32x32", "--frames", "1000000", "--record", trace.string()});
+  const ProgramResult result =
+      vergence({"vr", "--size", "32x32", "--frames", "1000000", "--reconnect", "0.5", "--record", trace.string()});
   killer.join();
   EXPECT_EQ(result.exit_status, 1) << result.err;
   EXPECT_FALSE(result.timed_out);
@@ -159,6 +170,40 @@ TEST(VrCommand, ARecordingOutlivesTheRuntime) {
   EXPECT_FALSE(kept.last_line_cut);
   const json record = json::parse(content_of(trace.string() + ".json"));
   EXPECT_EQ(record["events"].back()["event"], "session lost");
+}
+
+// A runtime that is started again gets the session back, and the recording goes on where it stopped.
+TEST(VrCommand, GoesOnWithARuntimeThatIsStartedAgain) {
+  support::Monado monado;
+  const support::TemporaryFolder folder;
+  const std::filesystem::path trace = folder.path() / "a.csv";
+  // The service lives as long as the thread that started it, so that is this one.
+  auto session = std::async(std::launch::async, [&] {
+    return vergence(
+        {"vr", "--size", "32x32", "--frames", "16", "--reconnect", "120", "--record", trace.string(), "--json"});
+  });
+  wait_for_rows(trace);
+  monado.kill();
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));  // gone for a try
+  monado.start();
+  const ProgramResult result = session.get();
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report["frames_shown"], 16);
+  EXPECT_EQ(report["reconnections"], 1);
+  const tracking::GazeTrace kept = tracking::read_gaze_trace(trace.string());
+  // All that were shown, and the one that was under way when the runtime died.
+  ASSERT_GE(kept.rows.size(), 16U);
+  ASSERT_LE(kept.rows.size(), 17U);
+  for (std::size_t i = 1; i < kept.rows.size(); ++i) {
+    EXPECT_LT(kept.rows[i - 1].time, kept.rows[i].time);
+  }
+  const json record = json::parse(content_of(trace.string() + ".json"));
+  std::vector<std::string> events;
+  for (const json& event : record["events"]) {
+    events.push_back(event["event"]);
+  }
+  EXPECT_EQ(events, (std::vector<std::string>{"session lost", "runtime returned"}));
 }
 
 // A headset whose displays are turned to where `render` turns its pictures shows what render draws for those eyes.

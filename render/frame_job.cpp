@@ -91,7 +91,6 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.keep_wavefront = keeps_wavefront(config, views);
   variant_.bare = config.bare;
   variant_.listed_tiles = out.size.listed_tiles > 0;
-  data_.view.w = static_cast<int>(listed_tile_words(config.width, config.height));
   variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
   variant_.keep_transfer = variant_.surface_kinds != 0 && keeps_transfer(config.accuracy.lens);
   if (variant_.surface_kinds == 0) {
@@ -123,7 +122,8 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   }
   data_.view.z = device.limits().on_processor ? static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) : 1;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
-  data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
+  data_.sampling = glm::ivec4(0, static_cast<int>(listed_tile_words(config.width, config.height)),
+                              static_cast<int>(config.seed), config.colour_map);
   // A pinhole picture is the defocused one with nothing left to blur.
   const float threshold = config.mode == Mode::adof ? static_cast<float>(config.threshold_px) : kNoBlurDrawn;
   data_.limits = glm::vec4(threshold, kLargestBlur, std::exp2(static_cast<float>(config.exposure)), 0.0F);

@@ -8,7 +8,7 @@ layout(binding = SHOWN_TILES_AT) uniform usamplerBuffer shown_tiles;
 
 // The tile at a place of the view's list; one beyond the picture where the list has ended.
 uvec2 listed_tile(uint place) {
-  uint tile = texelFetch(shown_tiles, frame.view.x * frame.view.w + int(place)).x;
+  uint tile = texelFetch(shown_tiles, frame.view.x * frame.sampling.y + int(place)).x;
   return uvec2(tile & 0xffffu, tile >> 16);
 }
 

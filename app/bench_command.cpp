@@ -15,6 +15,7 @@
 #include "app/bench/bench_report.hpp"
 #include "app/bench_figures.hpp"
 #include "app/bench_run.hpp"
+#include "app/bench_vr.hpp"
 #include "app/commands.hpp"
 #include "app/option_values.hpp"
 #include "app/report/output_folder.hpp"
@@ -36,6 +37,8 @@ struct BenchOptions {
   std::uint32_t seed = 0;
   std::string traversal = "automatic", device, output, figures;
   bool json = false;
+  bool vr = false;
+  int frames = 120;  // of each row of --vr
 };
 
 // What the shared --mode calls these.
@@ -95,16 +98,22 @@ std::string spectacles_of(const std::string& lens) {
   return built_in_asset(folder + name + ".json").string();
 }
 
-BenchConfig config_of(const BenchOptions& options) {
-  BenchConfig config;
+std::vector<BenchLens> lenses_of(const BenchOptions& options) {
+  std::vector<BenchLens> lenses;
   for (const std::string& lens : chosen("--lens", options.lenses, kBenchLenses, "all", std::span(&kFineNetLens, 1))) {
-    config.lenses.push_back({lens, spectacles_of(lens)});
+    lenses.push_back({lens, spectacles_of(lens)});
   }
   for (const std::string& pair : {options.scene.spectacles, options.scene.compare}) {
-    if (!pair.empty() && std::ranges::find(config.lenses, pair, &BenchLens::name) == config.lenses.end()) {
-      config.lenses.push_back({pair, pair});
+    if (!pair.empty() && std::ranges::find(lenses, pair, &BenchLens::name) == lenses.end()) {
+      lenses.push_back({pair, pair});
     }
   }
+  return lenses;
+}
+
+BenchConfig config_of(const BenchOptions& options) {
+  BenchConfig config;
+  config.lenses = lenses_of(options);
   config.modes = chosen("--mode", options.modes, kBenchModes, "all");
   config.shadings = chosen("--shading", options.shading, kBenchShadings, "both");
   config.sizes = sizes_of(options.sizes);
@@ -132,14 +141,56 @@ BenchProgress progress_line() {
   };
 }
 
-// Figures have their own eyes, lenses and sizes.
-void refuse_beside_figures(const CLI::App& command) {
+// An option that makes something else of the command goes with these only.
+void refuse_beside(const CLI::App& command, const std::string& special, const std::set<std::string>& allowed) {
+  std::string names;
+  for (const std::string& name : allowed) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() > 0 && name != "--figures" && name != "--scene" && name != "--device") {
-      throw InputError(name, "", "cannot be given together with --figures, which takes --scene and --device only");
+    if (option->count() > 0 && name != special && !allowed.contains(name)) {
+      throw InputError(name, "", "cannot be given together with " + special + ", which takes only " + names);
     }
   }
+}
+
+// Figures have their own eyes, lenses and sizes.
+void refuse_beside_figures(const CLI::App& command) {
+  refuse_beside(command, "--figures", {"--scene", "--device"});
+}
+
+// The runtime has its own idea of eyes; a session times each frame once, and chooses how rays find the scene by itself.
+void refuse_beside_vr(const CLI::App& command) {
+  refuse_beside(command, "--vr",
+                {"--scene", "--wearer", "--spectacles", "--compare", "--viewing", "--headset", "--lens", "--mode",
+                 "--size", "--accuracy", "--threshold", "--exposure", "--frames", "--device", "--json"});
+}
+
+void measure_in_headset(const BenchOptions& options, bool all_modes, bool own_size) {
+  BenchVrConfig config;
+  config.lenses = lenses_of(options);
+  config.modes = all_modes ? std::vector<std::string>{"adof"} : chosen("--mode", options.modes, kBenchModes, "all");
+  config.session.scene = options.scene;
+  config.session.scene.compare.clear();
+  config.session.picture = options.picture;
+  config.session.samples = 1;  // dof
+  config.session.device = options.device;
+  config.session.frames = options.frames;
+  if (own_size) {
+    const std::vector<int> sizes = sizes_of(options.sizes);
+    if (sizes.size() != 1) {
+      throw InputError("--size", "", "'" + options.sizes + "' must be one size for --vr, such as 512");
+    }
+    config.session.size = std::to_string(sizes[0]) + "x" + std::to_string(sizes[0]);
+  }
+  const bool is_watched = ::isatty(STDERR_FILENO) != 0;
+  const auto rows = run_bench_vr(config, [&](const BenchVrRow& row) {
+    if (is_watched) {
+      std::fprintf(stderr, "%s, %s\n", row.lens.c_str(), row.mode.c_str());
+    }
+  });
+  std::cout << (options.json ? bench_vr_json(rows) : bench_vr_table(rows));
 }
 
 void draw_figures(const BenchOptions& options) {
@@ -176,8 +227,9 @@ void measure(const BenchOptions& options) {
   std::cout << (options.json ? rows_json(report.rows, report.peers) : bench_table(report));
 }
 
-int bench(BenchOptions options) {
+int bench(BenchOptions options, const CLI::App& command) {
   check_range("--rounds", options.rounds, 1, 1000, "");
+  check_range("--frames", options.frames, 2, 1'000'000, "");
   check_picture_options(options.picture);
   if (options.scene.scene.empty()) {
     const std::filesystem::path cars = fetched_car_scene();
@@ -185,6 +237,8 @@ int bench(BenchOptions options) {
   }
   if (!options.figures.empty()) {
     draw_figures(options);
+  } else if (options.vr) {
+    measure_in_headset(options, command.count("--mode") == 0, command.count("--size") > 0);
   } else {
     measure(options);
   }
@@ -246,11 +300,20 @@ Action add_bench_command(CLI::App& program) {
       "--figures", options->figures,
       "Folder for the paper's Figures 1, 4, 5 and 6; measures nothing, and takes --scene and --device only");
   command->add_option("--device", options->device, "GPU by name or index [the first discrete, else any]");
+  command->add_flag(
+      "--vr", options->vr,
+      "In the headset instead, through OpenXR: from xrWaitFrame to the submission of the picture, part by\n"
+      "part, a session a lens; adof at the runtime's size if --mode and --size say nothing else");
+  command->add_option("--frames", options->frames, "Frames of each session of --vr")->capture_default_str();
   return [options, command] {
     if (!options->figures.empty()) {
       refuse_beside_figures(*command);
+    } else if (options->vr) {
+      refuse_beside_vr(*command);
+    } else if (command->count("--frames") > 0) {
+      throw InputError("--frames", "", "is for --vr only; --rounds says how often a frame is timed");
     }
-    return bench(*options);
+    return bench(*options, *command);
   };
 }
 

@@ -22,8 +22,6 @@ using tracking::Side;
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kLargestGaze_deg = 45.0;
 constexpr double kNearestTarget_m = 0.02;  // spectacles and eye lie within
-// The field that a headset's picture fills, for the pupil's size: a circle 60 degrees across.
-constexpr double kHeadsetField_deg2 = std::numbers::pi * 30.0 * 30.0;
 
 glm::dvec3 gaze_direction(const SceneOptions& options) {
   const auto v = numbers_of("--gaze", options.gaze, 2, "YAW,PITCH in degrees, such as 10,-25");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@
 #include "render/view_setup.hpp"
 
 namespace app {
+
+// The field that a headset's picture fills, for the pupil's size: a circle 60 degrees across.
+inline constexpr double kHeadsetField_deg2 = std::numbers::pi * 30.0 * 30.0;
 
 // Options shared by the commands that show a scene.
 struct SceneOptions {

@@ -100,6 +100,8 @@ Action add_vr_command(CLI::App& program) {
                    "FILE.csv to draw from, a line a picture: a recording gives the same pictures on the same device")
       ->excludes(record);
   command->add_option("--screenshot", options->screenshot, "FILE.png of the last picture, left eye | right eye");
+  command->add_flag("--no-text", options->no_text,
+                    "Nothing to read in the headset; neither a recording nor a screenshot holds its text anyway");
   command->add_option("--device", options->device, "Checked only: the headset says which GPU it hangs on");
   command->add_flag("--json", options->json, "Print the numbers as JSON");
   return [options] { return run(*options); };

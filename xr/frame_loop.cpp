@@ -1,6 +1,7 @@
 #include "xr/frame_loop.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 
 #include "xr/convert.hpp"
@@ -145,7 +146,7 @@ std::array<std::uint32_t, 2> FrameLoop::acquire() {
   return images;
 }
 
-void FrameLoop::show(const Frame& frame) {
+void FrameLoop::show(const Frame& frame, std::span<const Panel* const> panels) {
   std::array<XrCompositionLayerProjectionView, 2> views{};
   for (const Side side : {Side::right, Side::left}) {
     Swapchain& swapchain = *swapchains_[static_cast<std::size_t>(side)];
@@ -162,20 +163,30 @@ void FrameLoop::show(const Frame& frame) {
   layer.space = space_.handle();
   layer.viewCount = 2;
   layer.views = views.data();
-  end(frame, reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer));
+  std::vector<XrCompositionLayerQuad> quads;
+  for (const Panel* panel : panels) {
+    if (!panel->is_empty()) {
+      quads.push_back(panel->layer());
+    }
+  }
+  std::vector layers{reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer)};
+  std::ranges::transform(quads, std::back_inserter(layers), [](const XrCompositionLayerQuad& quad) {
+    return reinterpret_cast<const XrCompositionLayerBaseHeader*>(&quad);
+  });
+  end(frame, layers);
 }
 
 void FrameLoop::skip(const Frame& frame) {
-  end(frame, nullptr);
+  end(frame, {});
 }
 
-void FrameLoop::end(const Frame& frame, const XrCompositionLayerBaseHeader* layer) {
+void FrameLoop::end(const Frame& frame, std::span<const XrCompositionLayerBaseHeader* const> layers) {
   XrFrameEndInfo info{};
   info.type = XR_TYPE_FRAME_END_INFO;
   info.displayTime = frame.display_time;
   info.environmentBlendMode = blend_mode_;
-  info.layerCount = layer == nullptr ? 0 : 1;
-  info.layers = layer == nullptr ? nullptr : &layer;
+  info.layerCount = static_cast<std::uint32_t>(layers.size());
+  info.layers = layers.empty() ? nullptr : layers.data();
   check(xrEndFrame(session_.handle(), &info), "xrEndFrame");
 }
 

@@ -7,8 +7,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "tracking/stereo_view.hpp"
+#include "xr/panel.hpp"
 #include "xr/spaces.hpp"
 #include "xr/swapchain.hpp"
 
@@ -54,8 +56,9 @@ class FrameLoop {
   [[nodiscard]] std::optional<Frame> next();
   // The images, by Side, that the frame is to be drawn into.
   [[nodiscard]] std::array<std::uint32_t, 2> acquire();
-  // All work on the acquired images has been submitted.
-  void show(const Frame& frame);
+  // All work on the acquired images has been submitted. Panels lie over the picture, the last on top; one that is empty
+  // is left out.
+  void show(const Frame& frame, std::span<const Panel* const> panels = {});
   // Without a picture.
   void skip(const Frame& frame);
 
@@ -68,7 +71,7 @@ class FrameLoop {
  private:
   void poll();
   void locate(Frame& frame);
-  void end(const Frame& frame, const XrCompositionLayerBaseHeader* layer);
+  void end(const Frame& frame, std::span<const XrCompositionLayerBaseHeader* const> layers);
 
   Session& session_;
   Space space_, view_space_;

@@ -50,6 +50,9 @@ VrConnection::VrConnection(VrWorld& world)
   bindings_.attach(session_);
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
   loop_.while_idle([this] { return !stop_if_wanted(); });
+  if (!world.options().no_text) {
+    text_.emplace(device_, session_, loop_);
+  }
   describe();
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
 }
@@ -124,6 +127,7 @@ void VrConnection::wait_for_device() {
 
 void VrConnection::show(const xr::Frame& frame, double time) {
   VrReport& report = world_.report();
+  report.period = xr::seconds(frame.period);
   const auto since = [](Clock::time_point then) {
     return std::chrono::duration<double, std::milli>(Clock::now() - then).count();
   };
@@ -147,10 +151,16 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   const std::array<std::uint32_t, 2> images = loop_.acquire();
   mark("image wait");
   const double processor_after_waits = processor_ms();
+  std::vector<const xr::Panel*> panels;
+  if (text_) {
+    text_->update(world_, frame);
+    panels.push_back(&text_->panel());
+  }
+  mark("text");
   pictures_.start(world_.setup(), images);
   mark("submit");
   const double to_submit = since(frame.woken);
-  loop_.show(frame);
+  loop_.show(frame, panels);
   mark("hand over");
   processor += processor_ms() - processor_after_waits;
   if (!is_first) {  // it compiles and draws beforehand

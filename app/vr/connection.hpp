@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "app/vr/headset_text.hpp"
 #include "app/vr/pictures.hpp"
 #include "app/vr/world.hpp"
 #include "xr/actions.hpp"
@@ -43,6 +45,7 @@ class VrConnection {
   xr::FrameLoop loop_;
   tracking::Pose world_from_space_;
   Pictures pictures_;
+  std::optional<HeadsetText> text_;  // with --no-text there is none
   bool prepared_ = false;
   double processor_before_ = 0.0;  // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;

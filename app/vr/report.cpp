@@ -109,6 +109,7 @@ std::string to_json(const VrReport& report) {
                                     {"space", report.space},
                                     {"size", std::to_string(report.width) + "x" + std::to_string(report.height)},
                                     {"guard_px", report.guard_px},
+                                    {"period_ms", 1e3 * report.period},
                                     {"gaze_frames", report.gaze_sources},
                                     {"findings", to_json_array(report.findings)},
                                     {"frames_shown", report.shown},

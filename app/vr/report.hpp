@@ -30,6 +30,7 @@ struct VrReport {
   std::string runtime, headset, device, space;
   int width = 0, height = 0;  // of each eye's image
   int guard_px = 0;
+  double period = 0.0;                                 // s, of the display, as the runtime last gave it
   std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
   std::vector<ViewerFinding> findings;                 // what the person inside should know
   int shown = 0, skipped = 0;                          // frames with a picture and without

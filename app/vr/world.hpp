@@ -30,6 +30,9 @@ class VrWorld {
   [[nodiscard]] VrReport& report() { return report_; }
   [[nodiscard]] const VrReport& report() const { return report_; }
 
+  // Of the picture placed last: as tracking::name has it, or "replay".
+  [[nodiscard]] std::string gaze_source() const { return replay_ ? "replay" : tracking::name(wearer_.state().source); }
+
   // As many pictures as were asked for have been shown.
   [[nodiscard]] bool is_finished() const;
 

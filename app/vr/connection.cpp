@@ -45,10 +45,12 @@ VrConnection::VrConnection(VrWorld& world)
       bindings_(instance_),
       gaze_actions_(instance_, bindings_),
       loop_(session_, {.space = space_of(world.options().space), .size = size_of_images(world, instance_)}),
+      masks_(session_),
       world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())),
-      pictures_(renderer_, loop_, world.config()) {
+      pictures_(renderer_, loop_, masks_, world.config()) {
   bindings_.attach(session_);
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
+  loop_.on_event([this](const XrEventDataBuffer& event) { masks_.handle(event); });
   loop_.while_idle([this] { return !stop_if_wanted(); });
   if (!world.options().no_text) {
     text_.emplace(device_, session_, loop_);
@@ -116,6 +118,7 @@ void VrConnection::prepare_first(const xr::Frame& frame) {
   world_.warn(glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position));
   pictures_.prepare(world_.setup());
   world_.report().guard_px = pictures_.guard_px();
+  world_.report().mask_problem = pictures_.mask_problem();
   prepared_ = true;
 }
 
@@ -158,6 +161,8 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   }
   mark("text");
   pictures_.start(world_.setup(), images);
+  report.hidden_fraction = pictures_.hidden_fraction();
+  report.left_out_fraction = pictures_.left_out_fraction();
   mark("submit");
   const double to_submit = since(frame.woken);
   loop_.show(frame, panels);

@@ -43,6 +43,7 @@ class VrConnection {
   xr::GazeActions gaze_actions_;
   std::unique_ptr<xr::GazeInput> gaze_input_;  // once the bindings are attached
   xr::FrameLoop loop_;
+  xr::VisibilityMasks masks_;
   tracking::Pose world_from_space_;
   Pictures pictures_;
   std::optional<HeadsetText> text_;  // with --no-text there is none

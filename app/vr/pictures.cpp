@@ -9,7 +9,9 @@ namespace {
 
 using tracking::Side;
 
-constexpr double kNearest_m = 0.25;  // what the guard band allows for; nearer things are rare and blurred anyway
+constexpr double kMostHidden = 0.75;  // of a view: with more than that a mask is a mistake, not a lens
+constexpr int kMaskSide = 64;         // px, to tell that
+constexpr double kNearest_m = 0.25;   // what the guard band allows for; nearer things are rare and blurred anyway
 
 // As wide as the largest blur of any pair and eye.
 int guard_of(const RenderSetup& setup, int width, int height) {
@@ -27,8 +29,9 @@ int guard_of(const RenderSetup& setup, int width, int height) {
 
 }  // namespace
 
-Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, const render::LiveConfig& config)
-    : renderer_(renderer), loop_(loop), config_(config) {
+Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, xr::VisibilityMasks& masks,
+                   const render::LiveConfig& config)
+    : renderer_(renderer), loop_(loop), masks_(masks), config_(config) {
   config_.frame.width = loop.swapchain(Side::left).width();
   config_.frame.height = loop.swapchain(Side::left).height();
   config_.blue_first = loop.swapchain(Side::left).format() == VK_FORMAT_B8G8R8A8_SRGB;
@@ -48,13 +51,35 @@ void Pictures::prepare(const RenderSetup& setup) {
   for (const Side side : setup.sides) {
     images.push_back(loop_.swapchain(side).images());
   }
+  if (masks_.is_offered()) {
+    config_.hidden = hidden_areas(setup);
+  }
   live_ = std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config_, images);
+}
+
+std::vector<tracking::HiddenArea> Pictures::hidden_areas(const RenderSetup& setup) {
+  std::vector<tracking::HiddenArea> areas;
+  mask_problem_.clear();
+  for (std::size_t at = 0; at < setup.sides.size(); ++at) {
+    const xr::HiddenView& view = masks_.view(setup.sides[at]);
+    const double hidden =
+        tracking::hidden_pixels(view.area, setup.views[at].view.fov, kMaskSide, kMaskSide).hidden_fraction();
+    const bool is_sound = hidden <= kMostHidden;
+    areas.push_back(is_sound ? view.area : tracking::HiddenArea{});
+    if (!is_sound || !view.problem.empty()) {
+      mask_problem_ = is_sound ? view.problem : "the runtime's mask hides nearly all of a view";
+    }
+  }
+  return areas;
 }
 
 void Pictures::start(const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {
   std::vector<std::uint32_t> of_eyes;
   for (const Side side : setup.sides) {
     of_eyes.push_back(images[static_cast<std::size_t>(side)]);
+  }
+  if (masks_.has_changed()) {
+    live_->hide(hidden_areas(setup));
   }
   live_->start(setup.lenses, setup.views, of_eyes);
 }

@@ -1,8 +1,12 @@
 // What a real runtime hides of its views.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "render/image/png.hpp"
 #include "tests/support/headset_program.hpp"
 #include "tests/support/monado.hpp"
+#include "tests/support/run_program.hpp"
 #include "xr/visibility_mask.hpp"
 
 namespace {
@@ -82,6 +86,38 @@ TEST(VisibilityMaskOfARuntime, WithoutTheExtensionHidesNothing) {
   const xr::VisibilityMasks masks(program.session);
   EXPECT_FALSE(masks.is_offered());
   EXPECT_TRUE(masks.view(Side::right).area.triangles.empty());
+}
+
+// `vr` leaves the corners black; without the mask the sky is in them, or the room.
+TEST(VisibilityMaskOfARuntime, VrDrawsNoCorners) {
+  const support::Monado monado;
+  const support::TemporaryFolder folder;
+  const std::string picture = (folder.path() / "vr.png").string();
+  const support::ProgramResult result =
+      support::run_program({.arguments = {"vr", "--frames", "2", "--size", "256x256", "--mode", "pinhole",
+                                          "--screenshot", picture, "--json"},
+                            .time_limit = std::chrono::seconds(300)});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_GT(report["hidden_fraction"], 0.01);
+  EXPECT_LT(report["hidden_fraction"], 0.5);
+  EXPECT_GT(report["left_out_fraction"], 0.0);
+  EXPECT_LE(report["left_out_fraction"], report["hidden_fraction"]);
+  EXPECT_EQ(report["mask_problem"], "");
+  const render::Image8 seen = render::read_png(picture);
+  const auto light = [&](int x, int y) {
+    const auto at = 3 * static_cast<std::size_t>(y * seen.width + x);
+    return seen.rgb[at] + seen.rgb[at + 1] + seen.rgb[at + 2];
+  };
+  for (const int eye : {0, 256}) {
+    for (const int x : {0, 255}) {
+      for (const int y : {0, 255}) {
+        EXPECT_EQ(light(eye + x, y), 0) << eye + x << " " << y;
+      }
+    }
+    EXPECT_GT(light(eye + 128, 128), 0);
+    EXPECT_GT(light(eye + 128, 2), 0);
+  }
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct FrameData {
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
-  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl). w: 0, as an index.
+  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl). w: 0,
+  // as an index.
   ivec4 view;
   uvec4 sample_point;  // dof: the point that all pixels make their own (sample_pattern.h)
   vec4 corners;  // of interpolated lens rays: pixels between them along x and y, how many along x and y

@@ -227,7 +227,8 @@ TEST_F(MaskedFrame, TheBandHoldsAllThatABlurGathers) {
 }
 
 TEST_F(MaskedFrame, WhatIsHiddenMayChangeWhileThePictureRuns) {
-  render::Renderer renderer(*device_, *scene_);
+  render::vk::Device device({.validation = true});
+  render::Renderer renderer(device, *scene_);
   const WornPair pair = worn(false);
   auto both = views(pair);
   LiveConfig config = this->config({"", Mode::pinhole, false, true}, pair);
@@ -263,6 +264,7 @@ TEST_F(MaskedFrame, WhatIsHiddenMayChangeWhileThePictureRuns) {
   expect_hidden(nothing, false);
   EXPECT_EQ(renderer.kernels_made(), kernels);
   EXPECT_THROW(live.hide(std::vector<HiddenArea>(1)), std::invalid_argument);
+  EXPECT_EQ(device.validation_messages(), std::vector<std::string>{});
 }
 
 TEST_F(MaskedFrame, BothPairsOfAnEyeShareItsMask) {

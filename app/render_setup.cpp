@@ -85,6 +85,18 @@ std::optional<lenses::Spectacles> read_pair(const std::string& file) {
   return lenses::read_spectacles(file);
 }
 
+std::vector<std::string> pair_files(const SceneOptions& options) {
+  std::vector<std::string> files{options.spectacles};
+  files.insert(files.end(), options.further.begin(), options.further.end());
+  if (!options.compare.empty()) {
+    files.push_back(options.compare);
+  }
+  if (options.bare_too) {
+    files.emplace_back("none");
+  }
+  return files;
+}
+
 void look(WornPair& pair, const RenderSetup& setup, const SceneOptions& options, const render::Scene& scene,
           const render::RayQuery& query, const Pose& world_from_head) {
   const lenses::f64::Table table{setup.lenses.table};
@@ -168,9 +180,8 @@ RenderSetup make_render_setup(const SceneOptions& options, const render::Scene& 
     setup.sides.push_back(Side::right);
   }
   const Pose world_from_head = start_pose(options, scene);
-  setup.pairs.push_back(wear(setup, read_pair(options.spectacles), options.spectacles, world_from_head, headset));
-  if (!options.compare.empty()) {
-    setup.pairs.push_back(wear(setup, read_pair(options.compare), options.compare, world_from_head, headset));
+  for (const std::string& file : pair_files(options)) {
+    setup.pairs.push_back(wear(setup, read_pair(file), file, world_from_head, headset));
   }
   const render::RayQuery query(scene);
   for (WornPair& pair : setup.pairs) {

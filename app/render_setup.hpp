@@ -25,9 +25,11 @@ struct SceneOptions {
   std::string scene;   // empty: the built-in reading room
   std::string wearer;  // empty: 35 years, emmetropic
   std::string spectacles = "none";
-  std::string compare;      // a second pair, empty: none
-  std::string headset;      // empty: a desktop picture
-  bool in_headset = false;  // there is one, whether or not a file tells of it
+  std::vector<std::string> further;  // pairs that can be put on after it
+  std::string compare;               // a second pair, empty: none
+  bool bare_too = false;             // at last, the wearer without spectacles
+  std::string headset;               // empty: a desktop picture
+  bool in_headset = false;           // there is one, whether or not a file tells of it
   std::string viewing = "gaze";
   std::string gaze = "0,0";  // yaw, pitch in degrees
   std::string look_at;       // a target's name
@@ -49,7 +51,7 @@ struct WornPair {
 struct RenderSetup {
   lenses::Wearer wearer;
   lenses::LensModel lenses;
-  std::vector<WornPair> pairs;        // one, or A and B
+  std::vector<WornPair> pairs;        // one, or A and B; before a session in the order of its options
   std::vector<tracking::Side> sides;  // the eyes shown, in the picture's order from the left
   std::array<int, 2> size{};
   std::optional<lenses::HeadsetDisplay> headset;

@@ -47,9 +47,14 @@ void add_wearing_options(CLI::App& command, SceneOptions& scene, const SceneHelp
   command.add_option("--headset", scene.headset, "Headset file: pixels lie on its virtual image, light sets the pupil");
 }
 
-void add_picture_options(CLI::App& command, PictureOptions& picture) {
-  command.add_option("--accuracy", picture.accuracy, "Rung of the accuracy ladder")
-      ->check(CLI::IsMember(rung_names()))
+void add_picture_options(CLI::App& command, PictureOptions& picture, const std::string& auto_accuracy) {
+  std::vector<std::string> rungs = rung_names();
+  if (!auto_accuracy.empty()) {
+    rungs.emplace_back("auto");
+  }
+  command
+      .add_option("--accuracy", picture.accuracy, auto_accuracy.empty() ? "Rung of the accuracy ladder" : auto_accuracy)
+      ->check(CLI::IsMember(rungs))
       ->capture_default_str();
   command.add_option("--threshold", picture.threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
       ->capture_default_str();

@@ -30,7 +30,8 @@ struct PictureOptions {
   // In pixels; 0 draws every blur.
   [[nodiscard]] double threshold() const { return all_effects ? 0.0 : threshold_px; }
 };
-void add_picture_options(CLI::App& command, PictureOptions& picture);
+// auto_accuracy: help for an --accuracy that also takes "auto"; empty: it does not.
+void add_picture_options(CLI::App& command, PictureOptions& picture, const std::string& auto_accuracy = "");
 void check_picture_options(const PictureOptions& picture);
 
 }  // namespace app

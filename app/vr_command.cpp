@@ -17,6 +17,7 @@ namespace {
 
 using tracking::InputError;
 
+constexpr std::size_t kMostFurther = 16;  // each is compiled for before the first picture
 constexpr int kMostSamples = 1024, kMostFrames = 100'000'000;
 constexpr double kLongestWait_s = 86400.0;
 
@@ -30,8 +31,10 @@ void check_options(const VrOptions& options) {
   if (!options.record.empty()) {
     check_place(options.record);
   }
-  if (!options.replay.empty() && !options.scene.compare.empty()) {
-    throw InputError("--replay", "", "holds one pair's eyes; it cannot be given together with --compare");
+  if (options.scene.further.size() > kMostFurther) {
+    throw InputError("--pairs", "",
+                     "names " + std::to_string(options.scene.further.size()) + " files; at most " +
+                         std::to_string(kMostFurther) + " can be worn in turn");
   }
   if (!options.size.empty()) {
     (void)size_of("--size", options.size);
@@ -69,13 +72,17 @@ Action add_vr_command(CLI::App& program) {
                       {.scene = "FILE.gltf or FILE.glb [the built-in reading room]",
                        .spectacles = "Spectacles file, or none",
                        .compare = "A second pair: A left, B right of a divider in each eye"});
+  command->add_option("--pairs", options->scene.further,
+                      "FILE... of further pairs, put on in turn by the control next pair; without --compare the one\n"
+                      "worn is held against the next");
   command->add_option("--pose", options->scene.pose,
                       "X,Y,Z,YAW,PITCH (m, deg) of the scene where the room's centre stands, its height above the\n"
                       "floor only for a space without one [below the scene's camera]");
   command->add_option("--mode", options->mode, "What the picture shows")
       ->check(CLI::IsMember(mode_names()))
       ->capture_default_str();
-  add_picture_options(*command, options->picture);
+  add_picture_options(*command, options->picture,
+                      "Rung of the accuracy ladder, or auto: as exactly as the display's rate allows, or as recorded");
   command->add_option("--samples", options->samples, "Rays a pixel and frame (dof)")->capture_default_str();
   command->add_option("--range", options->range, "LO,HI of a map, D or arcmin [by map]");
   command->add_option("--colormap", options->colour_map, "hsv (as in the paper) or viridis (perceptual)")
@@ -100,6 +107,10 @@ Action add_vr_command(CLI::App& program) {
                    "FILE.csv to draw from, a line a picture: a recording gives the same pictures on the same device")
       ->excludes(record);
   command->add_option("--screenshot", options->screenshot, "FILE.png of the last picture, left eye | right eye");
+  command->add_flag("--mirror", options->mirror,
+                    "Open a window on the desktop with what the headset shows, left eye | right eye. Its keys:\n"
+                    "Space spectacles on and off, N next pair, C compare, M map, T next target, R recentre,\n"
+                    "Escape clear view; Q or closing the window ends the session");
   command->add_flag("--no-text", options->no_text,
                     "Nothing to read in the headset; neither a recording nor a screenshot holds its text anyway");
   command->add_option("--device", options->device, "Checked only: the headset says which GPU it hangs on");

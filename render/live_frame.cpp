@@ -324,6 +324,17 @@ double LiveFrame::left_out_fraction() const {
   return state_->mask ? state_->mask->left_out_fraction() : 0.0;
 }
 
+ShownPictures LiveFrame::shown() const {
+  ShownPictures shown{.eyes = {},
+                      .width = state_->config.frame.width,
+                      .height = state_->config.frame.height,
+                      .blue_first = state_->config.blue_first};
+  for (std::size_t eye = 0; eye < state_->config.eyes; ++eye) {
+    shown.eyes.push_back(state_->blocks_of(eye));
+  }
+  return shown;
+}
+
 Image8 LiveFrame::read_picture(std::size_t eye) {
   State& s = *state_;
   (void)s.submission.wait();

@@ -2,8 +2,10 @@
 //   time_s,head_px,head_py,head_pz,head_qx,head_qy,head_qz,head_qw,left_gx,left_gy,left_gz,right_gx,right_gy,right_gz,
 //   gaze_valid
 // Metres, a unit quaternion, gaze directions in head axes; gaze_valid is 0 during blinks and loss. Further columns may
-// follow; ours are left_pupil_m, right_pupil_m, left_accommodation_D, right_accommodation_D (all four or none of them)
-// and gaze_source. Others are passed over.
+// follow; ours are left_pupil_m, right_pupil_m, left_accommodation_D, right_accommodation_D (all four or none of them),
+// gaze_source, and b_left_gx, b_left_gy, b_left_gz, b_right_gx, b_right_gy, b_right_gz, b_left_accommodation_D,
+// b_right_accommodation_D (all eight or none: the eyes behind a second pair, zeros where there is none). Others are
+// passed over.
 #pragma once
 
 #include <array>
@@ -28,6 +30,13 @@ struct EyesInFrame {
   bool operator==(const EyesInFrame&) const = default;
 };
 
+// The same eyes behind a second pair of spectacles, which turn and accommodate otherwise; indexed by Side.
+struct EyesBehindSecond {
+  std::array<glm::dvec3, 2> gaze{};  // head axes, unit
+  std::array<double, 2> accommodation{};
+  bool operator==(const EyesBehindSecond&) const = default;
+};
+
 struct TraceRow {
   double time = 0.0;  // s
   Pose head;          // world_from_head
@@ -36,6 +45,7 @@ struct TraceRow {
   bool gaze_valid = true;
   std::optional<EyesInFrame> eyes;
   std::optional<GazeSource> source;
+  std::optional<EyesBehindSecond> second = {};
 };
 
 struct GazeTrace {
@@ -54,7 +64,7 @@ struct GazeTrace {
 class GazeTraceWriter {
  public:
   struct Columns {
-    bool eyes = true, source = true;
+    bool eyes = true, source = true, second = false;
   };
 
   // Replaces the file. Throws std::runtime_error where it cannot be written.

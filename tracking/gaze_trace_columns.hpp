@@ -12,6 +12,14 @@ inline constexpr std::array<std::string_view, 15> kTraceColumns{
 inline constexpr std::array<std::string_view, 4> kEyeColumns{"left_pupil_m", "right_pupil_m", "left_accommodation_D",
                                                              "right_accommodation_D"};
 inline constexpr std::string_view kSourceColumn = "gaze_source";
+inline constexpr std::array<std::string_view, 8> kSecondColumns{"b_left_gx",
+                                                                "b_left_gy",
+                                                                "b_left_gz",
+                                                                "b_right_gx",
+                                                                "b_right_gy",
+                                                                "b_right_gz",
+                                                                "b_left_accommodation_D",
+                                                                "b_right_accommodation_D"};
 
 inline constexpr double kFarthestHead = 1e5;        // m from the origin
 inline constexpr double kLargestPupil = 0.02;       // m

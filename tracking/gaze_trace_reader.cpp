@@ -122,6 +122,13 @@ class Parser {
            "has some of left_pupil_m, right_pupil_m, left_accommodation_D, right_accommodation_D; all four or none "
            "are allowed");
     }
+    for (std::size_t i = 0; i < kSecondColumns.size(); ++i) {
+      second_column_[i] = find_further(kSecondColumns[i]);
+    }
+    const auto of_second = std::ranges::count_if(second_column_, [](std::size_t c) { return c != 0; });
+    if (of_second != 0 && of_second != std::ssize(kSecondColumns)) {
+      fail("", "has some of the columns b_left_gx to b_right_accommodation_D; all eight or none are allowed");
+    }
     for (std::size_t i = kFirst; i < fields_.size(); ++i) {
       if (std::ranges::find(kTraceColumns, fields_[i]) != kTraceColumns.end()) {
         fail(fields_[i], "is given twice; a column may appear once");
@@ -175,14 +182,21 @@ class Parser {
     if (source_column_ != 0) {
       row.source = source();
     }
+    if (second_column_[0] != 0) {
+      row.second = second();
+    }
     return row;
   }
 
   [[nodiscard]] std::string column_name(std::size_t column) const {
     if (column < kFirst) return std::string(kTraceColumns[column]);
-    const auto eye = std::ranges::find(eye_column_, column);
-    return std::string(eye == eye_column_.end() ? kSourceColumn
-                                                : kEyeColumns[static_cast<std::size_t>(eye - eye_column_.begin())]);
+    if (const auto eye = std::ranges::find(eye_column_, column); eye != eye_column_.end()) {
+      return std::string(kEyeColumns[static_cast<std::size_t>(eye - eye_column_.begin())]);
+    }
+    const auto second = std::ranges::find(second_column_, column);
+    return std::string(second == second_column_.end()
+                           ? kSourceColumn
+                           : kSecondColumns[static_cast<std::size_t>(second - second_column_.begin())]);
   }
 
   [[nodiscard]] double number(std::size_t column) const {
@@ -255,10 +269,32 @@ class Parser {
     fail(kSourceColumn, quoted(fields_[source_column_]) + " is not allowed; target, tracker, held or head");
   }
 
+  // Nothing where all are 0: no second pair was worn then.
+  [[nodiscard]] std::optional<EyesBehindSecond> second() const {
+    const auto& column = second_column_;
+    if (std::ranges::all_of(column, [&](std::size_t c) { return number(c) == 0.0; })) {
+      return std::nullopt;
+    }
+    EyesBehindSecond eyes;
+    for (const Side side : {Side::left, Side::right}) {
+      const auto i = static_cast<std::size_t>(side);
+      const std::size_t at = side == Side::left ? 0 : 1;
+      const glm::dvec3 gaze(number(column[3 * at]), number(column[3 * at + 1]), number(column[3 * at + 2]));
+      const auto unit = unit_direction(gaze);
+      if (!unit) {
+        fail(kSecondColumns[3 * at], "the gaze direction is 0; it must point somewhere, or all of b_... be 0");
+      }
+      eyes.gaze[i] = std::abs(glm::length(gaze) - 1.0) > kUnitExactly ? *unit : gaze;
+      eyes.accommodation[i] = number(column[6 + at], 0.0, kMostAccommodation);
+    }
+    return eyes;
+  }
+
   const std::string& file_;
   std::size_t number_ = 0, columns_ = 0;
   std::array<std::size_t, 4> eye_column_{};
   std::size_t source_column_ = 0;
+  std::array<std::size_t, 8> second_column_{};
   std::vector<std::string_view> fields_;
   GazeTrace trace_;
 };

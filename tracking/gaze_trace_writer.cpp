@@ -47,6 +47,10 @@ bool readable(const TraceRow& row) {
     good = good && within(row.eyes->pupil_diameter[i], kLargestPupil) &&
            within(row.eyes->accommodation[i], kMostAccommodation);
   }
+  for (std::size_t i = 0; row.second && i < 2; ++i) {
+    good = good && is_finite(row.second->gaze[i]) && unit_direction(row.second->gaze[i]) &&
+           within(row.second->accommodation[i], kMostAccommodation);
+  }
   return good;
 }
 
@@ -61,6 +65,9 @@ std::string header_of(const GazeTraceWriter::Columns& columns) {
     if (columns.eyes) add(name);
   }
   if (columns.source) add(kSourceColumn);
+  for (const std::string_view name : kSecondColumns) {
+    if (columns.second) add(name);
+  }
   return line;
 }
 
@@ -104,6 +111,12 @@ bool GazeTraceWriter::write(const TraceRow& row) {
   if (columns_.source) {
     line += ',';
     line += name(row.source.value_or(row.gaze_valid ? GazeSource::tracker : GazeSource::held));
+  }
+  if (columns_.second) {
+    const EyesBehindSecond second = row.second.value_or(EyesBehindSecond{});
+    for (const Side side : {Side::left, Side::right}) append(line, second.gaze[static_cast<std::size_t>(side)]);
+    for (const Side side : {Side::left, Side::right})
+      append(line, second.accommodation[static_cast<std::size_t>(side)]);
   }
   put(line);
   last_time_ = row.time;

@@ -113,13 +113,9 @@ void VisibilityMasks::handle(const XrEventDataBuffer& event) {
     if (change.session == session_.handle() && change.viewConfigurationType == kStereo &&
         change.viewIndex == view_index(side)) {
       ask(side);
-      changed_ = true;
+      ++changes_;
     }
   }
-}
-
-bool VisibilityMasks::has_changed() {
-  return std::exchange(changed_, false);
 }
 
 void VisibilityMasks::ask(Side side) {

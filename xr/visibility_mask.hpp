@@ -36,8 +36,8 @@ class VisibilityMasks {
   // Whether the instance has the extension.
   [[nodiscard]] bool is_offered() const { return get_ != nullptr; }
   [[nodiscard]] const HiddenView& view(tracking::Side side) const { return views_[static_cast<std::size_t>(side)]; }
-  // Since the last call of this, or the constructor.
-  [[nodiscard]] bool has_changed();
+  // Since the constructor.
+  [[nodiscard]] int changes() const { return changes_; }
 
  private:
   void ask(tracking::Side side);
@@ -45,7 +45,7 @@ class VisibilityMasks {
   const Session& session_;
   PFN_xrGetVisibilityMaskKHR get_ = nullptr;
   std::array<HiddenView, 2> views_;  // indexed by Side
-  bool changed_ = false;
+  int changes_ = 0;
 };
 
 }  // namespace xr

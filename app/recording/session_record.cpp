@@ -19,6 +19,7 @@ using tracking::Side;
 constexpr std::size_t kMostChanges = 1'000'000;
 constexpr double kMostFrames = 4e6;
 constexpr double kMostPixels = 16384.0;
+constexpr double kMostPairs = 63.0;     // of spectacles, in one session
 constexpr double kMostOffset = 10.0;    // m, of a view from the head
 constexpr double kMostTangent = 100.0;  // of half a field of view
 constexpr double kUnitExactly = 1e-6;   // off unit length, as in a trace
@@ -102,6 +103,19 @@ std::vector<NameChange> read_names(const Field& object, std::string_view key) {
   return changes;
 }
 
+std::vector<ShownChange> read_shown(const Field& object) {
+  std::vector<ShownChange> changes;
+  for (const Field& entry : entries(object, "shown")) {
+    entry.allow_only({"frame", "pairs", "picture"});
+    ShownChange change{read_frame(entry, changes), {}, read_name(entry, "picture")};
+    for (const Field& pair : entry.require("pairs", "an array of 1 or 2 whole numbers").elements(1, 2, "pairs")) {
+      change.pairs.push_back(static_cast<std::size_t>(whole(pair, kMostPairs)));
+    }
+    changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
 void read_options(const Field& object, SessionRecord& record) {
   if (!object.value().is_object()) {
     object.fail_type("an object of strings");
@@ -129,6 +143,10 @@ std::string to_json(const SessionRecord& record) {
   }
   document["rungs"] = names_array(record.rungs);
   document["pairs"] = names_array(record.pairs);
+  document["shown"] = ordered_json::array();
+  for (const ShownChange& change : record.shown) {
+    document["shown"].push_back({{"frame", change.frame}, {"pairs", change.pairs}, {"picture", change.picture}});
+  }
   document["events"] = ordered_json::array();
   for (const RecordedEvent& event : record.events) {
     document["events"].push_back({{"frame", event.frame}, {"time_s", event.time}, {"event", event.what}});
@@ -140,7 +158,7 @@ SessionRecord parse_session_record(std::string_view text, const std::string& fil
   const lenses::io::Source source{file, ""};
   const nlohmann::json document = lenses::io::parse_json(text, source);
   const Field object(document, source);
-  object.allow_only_in_root({"device", "size_px", "options", "views", "rungs", "pairs", "events"});
+  object.allow_only_in_root({"device", "size_px", "options", "views", "rungs", "pairs", "events", "shown"});
   SessionRecord record;
   if (const auto device = object.find("device")) record.device = device->text();
   if (const auto size = object.find("size_px")) {
@@ -163,6 +181,7 @@ SessionRecord parse_session_record(std::string_view text, const std::string& fil
     record.events.push_back({read_frame(entry, record.events), entry.required_number("time_s", plain(-1e12, 1e12)),
                              read_name(entry, "event")});
   }
+  record.shown = read_shown(object);
   return record;
 }
 

@@ -28,10 +28,19 @@ struct NameChange {
   std::string name;
 };
 
+// What is in view from a frame on: one pair or A and B, counted as the command's options name them (--spectacles 0,
+// then
+// --pairs, --compare and at last the eyes without), and --mode's name for what is drawn.
+struct ShownChange {
+  std::size_t frame = 0;
+  std::vector<std::size_t> pairs;
+  std::string picture;
+};
+
 struct RecordedEvent {
   std::size_t frame = 0;  // the first one after it
   double time = 0.0;      // s, in the trace's clock
-  std::string what;       // "spectacles off", "recentred", "session lost"
+  std::string what;       // a control's name ("next_pair"), "recentred", "session lost"
 };
 
 struct SessionRecord {
@@ -41,6 +50,7 @@ struct SessionRecord {
   std::vector<ViewChange> views;                             // each list in the order of its frames
   std::vector<NameChange> rungs, pairs;
   std::vector<RecordedEvent> events;
+  std::vector<ShownChange> shown = {};
 };
 
 [[nodiscard]] std::string record_file(const std::string& trace_file);  // FILE.csv.json

@@ -36,7 +36,7 @@ bool add_name(std::vector<NameChange>& changes, std::size_t frame, const std::st
 }  // namespace
 
 SessionRecorder::SessionRecorder(const std::string& trace_file, SessionRecord start)
-    : file_(record_file(trace_file)), record_(std::move(start)), writer_(trace_file) {
+    : file_(record_file(trace_file)), record_(std::move(start)), writer_(trace_file, {.second = true}) {
   save();
 }
 
@@ -46,7 +46,7 @@ void SessionRecorder::save() const {
 }
 
 bool SessionRecorder::frame(const tracking::TraceRow& row, const std::array<RecordedView, 2>& views,
-                            const std::string& rung, const std::string& pair) {
+                            const std::string& rung, const std::string& pair, const std::optional<ShownChange>& shown) {
   const std::size_t index = writer_.rows();
   bool changed = false;
   if (record_.views.empty() || !same(record_.views.back().view[0], views[0]) ||
@@ -56,6 +56,11 @@ bool SessionRecorder::frame(const tracking::TraceRow& row, const std::array<Reco
   }
   changed = add_name(record_.rungs, index, rung) || changed;
   changed = add_name(record_.pairs, index, pair) || changed;
+  if (shown && (record_.shown.empty() || record_.shown.back().pairs != shown->pairs ||
+                record_.shown.back().picture != shown->picture)) {
+    add(record_.shown, {index, shown->pairs, shown->picture});
+    changed = true;
+  }
   if (changed) {
     save();
   }

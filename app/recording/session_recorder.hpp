@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "app/recording/session_record.hpp"
@@ -17,10 +18,10 @@ class SessionRecorder {
   // written, as do the calls below.
   SessionRecorder(const std::string& trace_file, SessionRecord start);
 
-  // What was drawn: a frame with its views (indexed by Side), its rung and the pair worn. False where the row cannot be
-  // recorded (see GazeTraceWriter::write).
+  // What was drawn: a frame with its views (indexed by Side), its rung, the pair worn and what was in view (its frame
+  // does not count; nothing: not known). False where the row cannot be recorded (see GazeTraceWriter::write).
   bool frame(const tracking::TraceRow& row, const std::array<RecordedView, 2>& views, const std::string& rung,
-             const std::string& pair);
+             const std::string& pair, const std::optional<ShownChange>& shown = std::nullopt);
 
   // Something that happened before the frame to come.
   void event(double time, const std::string& what);

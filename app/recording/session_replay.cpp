@@ -52,17 +52,18 @@ SessionReplay::SessionReplay(const std::string& trace_file)
                     record_file(trace_file)) {}
 
 SessionReplay::SessionReplay(tracking::GazeTrace trace, std::optional<SessionRecord> record, const std::string& file)
-    : trace_(std::move(trace)), record_(std::move(record)) {
+    : trace_(std::move(trace)), record_(std::move(record)), file_(file) {
   if (record_) {
     check(record_->views, "views", frames(), true, file);
     check(record_->rungs, "rungs", frames(), true, file);
     check(record_->pairs, "pairs", frames(), true, file);
+    check(record_->shown, "shown", frames(), true, file);
     check(record_->events, "events", frames(), false, file);
   }
 }
 
 SessionReplay::Frame SessionReplay::frame(std::size_t index) const {
-  Frame frame{&trace_.rows.at(index), nullptr, nullptr, nullptr};
+  Frame frame{&trace_.rows.at(index), nullptr, nullptr, nullptr, nullptr};
   if (record_) {
     const ViewChange* views = at(record_->views, index);
     const NameChange* rung = at(record_->rungs, index);
@@ -70,6 +71,7 @@ SessionReplay::Frame SessionReplay::frame(std::size_t index) const {
     frame.views = views != nullptr ? &views->view : nullptr;
     frame.rung = rung != nullptr ? &rung->name : nullptr;
     frame.pair = pair != nullptr ? &pair->name : nullptr;
+    frame.shown = at(record_->shown, index);
   }
   return frame;
 }

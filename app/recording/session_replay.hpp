@@ -20,6 +20,7 @@ class SessionReplay {
 
   [[nodiscard]] std::size_t frames() const { return trace_.rows.size(); }
   [[nodiscard]] bool last_line_cut() const { return trace_.last_line_cut; }
+  [[nodiscard]] const std::string& file() const { return file_; }  // the record's
   [[nodiscard]] const std::optional<SessionRecord>& record() const { return record_; }
 
   // Of one frame. What a trace without a record does not say is null.
@@ -28,6 +29,7 @@ class SessionReplay {
     const std::array<RecordedView, 2>* views;  // indexed by Side
     const std::string* rung;
     const std::string* pair;
+    const ShownChange* shown;
   };
   [[nodiscard]] Frame frame(std::size_t index) const;  // index < frames()
 
@@ -37,6 +39,7 @@ class SessionReplay {
  private:
   tracking::GazeTrace trace_;
   std::optional<SessionRecord> record_;
+  std::string file_;
 };
 
 }  // namespace app

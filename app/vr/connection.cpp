@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ctime>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "app/device.hpp"
 #include "app/headset_device.hpp"
@@ -33,8 +34,9 @@ double processor_ms() {
 
 }  // namespace
 
-VrConnection::VrConnection(VrWorld& world)
+VrConnection::VrConnection(VrWorld& world, ControlSource more_controls, MirrorLink* mirror)
     : world_(world),
+      more_controls_(std::move(more_controls)),
       instance_({.wanted_extensions = wanted_extensions()}),
       device_(open_headset_device(
           instance_,
@@ -44,19 +46,25 @@ VrConnection::VrConnection(VrWorld& world)
       session_(instance_, graphics_of(device_)),
       bindings_(instance_),
       gaze_actions_(instance_, bindings_),
+      controls_(instance_, bindings_),
       loop_(session_, {.space = space_of(world.options().space), .size = size_of_images(world, instance_)}),
-      masks_(session_),
-      world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())),
-      pictures_(renderer_, loop_, masks_, world.config()) {
+      hidden_(session_),
+      world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())) {
   bindings_.attach(session_);
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
-  loop_.on_event([this](const XrEventDataBuffer& event) { masks_.handle(event); });
+  loop_.on_event([this](const XrEventDataBuffer& event) { hidden_.handle(event); });
   loop_.while_idle([this] { return !stop_if_wanted(); });
   if (!world.options().no_text) {
     text_.emplace(device_, session_, loop_);
   }
   describe();
+  if (mirror != nullptr) {
+    mirror_.emplace(*mirror, device_, std::array{world_.report().width, world_.report().height});
+  }
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
+  const xr::GazeSupport gaze = gaze_actions_.support();
+  world_.choose_rungs(gaze.per_eye || gaze.combined);
+  pictures_.emplace(renderer_, loop_, hidden_, world.options(), world.rungs().rungs());
 }
 
 void VrConnection::describe() {
@@ -99,33 +107,74 @@ bool VrConnection::stop_if_wanted() {
   return session_.is_over();
 }
 
+// The scene moves under the head; what is remembered of directions in it goes with it.
+void VrConnection::recentre(const tracking::Pose& world_from_space, const tracking::Pose& new_from_old) {
+  world_.turned((world_from_space * new_from_old * world_from_space_.inverse()).orientation);
+  world_from_space_ = world_from_space;
+  world_.record_event("recentred");
+}
+
+void VrConnection::heed_controls(const xr::Frame& frame) {
+  std::vector<xr::Control> pressed = controls_.pressed(session_);
+  if (more_controls_) {
+    const std::vector<xr::Control> more = more_controls_();
+    pressed.insert(pressed.end(), more.begin(), more.end());
+  }
+  for (const xr::Control control : pressed) {
+    if (control == xr::Control::recentre) {
+      recentre(recentred(world_.options().scene, world_.scene(), loop_.space().type(), frame.space_from_head), {});
+    } else {
+      world_.apply(control);
+    }
+  }
+}
+
 void VrConnection::place(const xr::Frame& frame, double time) {
+  if (frame.new_from_old) {
+    recentre(world_from_space(world_.options().scene, world_.scene(), loop_.space().type()), *frame.new_from_old);
+  }
+  heed_controls(frame);
   HeadAndViews where;
   where.world_from_head = world_from_space_ * frame.space_from_head;
   for (const Side side : {Side::right, Side::left}) {
     const auto i = static_cast<std::size_t>(side);
     where.eyes[i] = {.head_from_view = frame.views[i].head_from_view, .fov = frame.views[i].fov};
   }
-  if (frame.new_from_old) {
-    world_.head_was_moved();
-    world_.record_event("recentred");
-  }
   world_.place(time, where, gaze_input_->read(loop_.view_space(), frame.display_time));
   world_.watch_reprojection(time, where, xr::seconds(frame.period));
 }
 
-void VrConnection::prepare_first(const xr::Frame& frame) {
+// Whatever the controls may ask for is compiled now, and what is shown first is made at every rung: no live frame waits
+// for a compiler, and a change of rung for nothing at all.
+void VrConnection::prepare_pictures(const xr::Frame& frame) {
   world_.warn(glm::length(frame.views[0].head_from_view.position - frame.views[1].head_from_view.position));
-  pictures_.prepare(world_.setup());
-  world_.report().guard_px = pictures_.guard_px();
-  world_.report().mask_problem = pictures_.mask_problem();
+  const std::size_t rungs = world_.rungs().rungs().size();
+  if (!world_.replay()) {
+    for (const ShownPicture& shown : world_.reachable()) {
+      for (std::size_t rung = 0; rung < (world_.has_rungs(shown) ? rungs : 1); ++rung) {
+        pictures_->prepare({shown, rung}, world_.wearer().wearing(shown.pairs));
+      }
+    }
+  }
+  const ShownPicture& first = world_.picture();
+  for (std::size_t rung = 0; rung < (world_.has_rungs(first) ? rungs : 1); ++rung) {
+    pictures_->make({first, rung}, world_.wearer().wearing(first.pairs));
+  }
+  world_.report().guard_px = pictures_->guard_px({first, world_.rung()}).value_or(0);
   prepared_ = true;
 }
 
 void VrConnection::wait_for_device() {
-  for (const render::vk::StageTime& stage : pictures_.wait()) {
-    world_.report().device_stage(stage.name).add(stage.milliseconds);
+  const auto done = pictures_->wait();
+  if (!done) {
+    return;
   }
+  double seconds = 0.0;
+  for (const render::vk::StageTime& stage : done->stages) {
+    world_.report().device_stage(stage.name).add(stage.milliseconds);
+    seconds += 1e-3 * stage.milliseconds;
+  }
+  world_.see_frame_time(done->key.shown, done->key.rung, seconds);
 }
 
 void VrConnection::show(const xr::Frame& frame, double time) {
@@ -141,16 +190,22 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   };
   mark("locate");
   bindings_.sync(session_);
+  world_.rungs().see_period(xr::seconds(frame.period));
   place(frame, time);
   mark("place");
   const bool is_first = !prepared_;
   if (is_first) {
-    prepare_first(frame);
+    prepare_pictures(frame);
     last = Clock::now();
   }
   double processor = processor_ms() - processor_before_;
   wait_for_device();
   mark("device wait");
+  const PictureKey key{world_.picture(), world_.rung()};
+  if (!pictures_->has(key)) {
+    pictures_->make(key, world_.wearer().wearing(key.shown.pairs));
+    mark("new picture");
+  }
   const std::array<std::uint32_t, 2> images = loop_.acquire();
   mark("image wait");
   const double processor_after_waits = processor_ms();
@@ -160,9 +215,10 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     panels.push_back(&text_->panel());
   }
   mark("text");
-  pictures_.start(world_.setup(), images);
-  report.hidden_fraction = pictures_.hidden_fraction();
-  report.left_out_fraction = pictures_.left_out_fraction();
+  pictures_->start(key, world_.wearer().setup(), images);
+  report.hidden_fraction = pictures_->hidden_fraction();
+  report.left_out_fraction = pictures_->left_out_fraction();
+  report.mask_problem = hidden_.problem();
   mark("submit");
   const double to_submit = since(frame.woken);
   loop_.show(frame, panels);
@@ -173,12 +229,16 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     report.frame_code.add(processor);
   }
   ++report.shown;
+  if (mirror_) {
+    mirror_->after_frame(pictures_->shown());
+    mark("mirror");
+  }
 }
 
 void VrConnection::finish() {
   wait_for_device();
   if (!world_.options().screenshot.empty()) {
-    if (const auto picture = pictures_.read_picture()) {
+    if (const auto picture = pictures_->read_picture()) {
       render::write_png(world_.options().screenshot, *picture);
     }
   }

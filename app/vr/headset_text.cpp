@@ -29,23 +29,6 @@ double display_pixels_per_degree(const RenderSetup& setup, bool has_headset_file
                           : pixels_per_degree(display_width, fov.tan_left, fov.tan_right);
 }
 
-NoticeContent content_of(const VrWorld& world, const std::vector<PlateLine>& limits) {
-  NoticeContent content;
-  for (const WornPair& pair : world.setup().pairs) {
-    content.pairs.push_back(pair.name);
-  }
-  content.gaze_source = world.gaze_source();
-  content.rung = world.options().picture.accuracy;
-  if (const render::Mode mode = world.config().frame.mode; render::is_map(mode)) {
-    content.map = mode_names()[static_cast<std::size_t>(mode)];
-  }
-  for (const ViewerFinding& found : world.report().findings) {
-    content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
-  }
-  content.limits = limits;
-  return content;
-}
-
 }  // namespace
 
 DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, const tracking::FieldOfView& fov,
@@ -60,13 +43,31 @@ DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, co
   return limits;
 }
 
+NoticeContent notice_content(const VrWorld& world, const std::vector<PlateLine>& limits) {
+  NoticeContent content;
+  for (const WornPair& pair : world.wearer().setup().pairs) {
+    content.pairs.push_back(world.is_clear() ? "clear view" : pair.name);
+  }
+  content.gaze_source = world.gaze_source();
+  content.target = world.target_name();
+  content.rung = world.rung_name();
+  if (const render::Mode mode = world.picture().mode; render::is_map(mode)) {
+    content.map = mode_names()[static_cast<std::size_t>(mode)];
+  }
+  for (const ViewerFinding& found : world.report().findings) {
+    content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
+  }
+  content.limits = limits;
+  return content;
+}
+
 HeadsetText::HeadsetText(const render::vk::Device& device, const xr::Session& session, const xr::FrameLoop& loop)
     : loop_(loop),
       display_width_(xr::recommended_sizes(session.instance())[0][0]),
       text_(device, session, loop.view_space(), plate_config()) {}
 
 void HeadsetText::see_display(const VrWorld& world, const xr::Frame& frame) {
-  const RenderSetup& setup = world.setup();
+  const RenderSetup& setup = world.wearer().setup();
   const bool has_file = !world.options().scene.headset.empty();
   const tracking::FieldOfView& fov = frame.views[0].fov;
   limits_ = limit_lines(display_limits(setup, has_file, fov, loop_.swapchain(Side::right).width(), display_width_));
@@ -78,7 +79,7 @@ void HeadsetText::update(const VrWorld& world, const xr::Frame& frame) {
   if (limits_.empty()) {
     see_display(world, frame);
   }
-  const auto lines = notice_.step(xr::seconds(frame.display_time), content_of(world, limits_));
+  const auto lines = notice_.step(xr::seconds(frame.display_time), notice_content(world, limits_));
   if (!lines) {
     return;
   }

@@ -15,6 +15,9 @@ namespace app {
 [[nodiscard]] DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file,
                                            const tracking::FieldOfView& fov, int image_width, int display_width);
 
+// Of the picture placed last.
+[[nodiscard]] NoticeContent notice_content(const VrWorld& world, const std::vector<PlateLine>& limits);
+
 class HeadsetText {
  public:
   // Refers to device, session and loop.

@@ -11,7 +11,7 @@ namespace app {
 
 struct VrOptions {
   SceneOptions scene;
-  PictureOptions picture;
+  PictureOptions picture{.accuracy = "auto"};  // or a rung's name
   std::string mode = "adof";
   int samples = 4;  // dof, in every frame
   std::string range;
@@ -22,7 +22,8 @@ struct VrOptions {
   std::string screenshot;
   std::string record, replay;  // FILE.csv
   std::optional<int> frames;
-  bool no_text = false;  // nothing to read in the headset
+  bool mirror = false;
+  bool no_text = false;       // nothing to read in the headset
   double reconnect_s = 10.0;  // how long a lost runtime is waited for
   bool json = false;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/vr/setup.hpp"
 #include "render/guard_band.hpp"
 
 namespace app {
@@ -9,9 +10,7 @@ namespace {
 
 using tracking::Side;
 
-constexpr double kMostHidden = 0.75;  // of a view: with more than that a mask is a mistake, not a lens
-constexpr int kMaskSide = 64;         // px, to tell that
-constexpr double kNearest_m = 0.25;   // what the guard band allows for; nearer things are rare and blurred anyway
+constexpr double kNearest_m = 0.25;  // what the guard band allows for; nearer things are rare and blurred anyway
 
 // As wide as the largest blur of any pair and eye.
 int guard_of(const RenderSetup& setup, int width, int height) {
@@ -29,72 +28,93 @@ int guard_of(const RenderSetup& setup, int width, int height) {
 
 }  // namespace
 
-Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, xr::VisibilityMasks& masks,
-                   const render::LiveConfig& config)
-    : renderer_(renderer), loop_(loop), masks_(masks), config_(config) {
-  config_.frame.width = loop.swapchain(Side::left).width();
-  config_.frame.height = loop.swapchain(Side::left).height();
-  config_.blue_first = loop.swapchain(Side::left).format() == VK_FORMAT_B8G8R8A8_SRGB;
-}
+Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, HiddenViews& hidden, const VrOptions& options,
+                   std::vector<render::GovernorRung> rungs)
+    : renderer_(renderer), loop_(loop), hidden_(hidden), options_(options), rungs_(std::move(rungs)) {}
 
 // What is recorded for the device depends on the lenses and on how wide the blur can be, and on nothing that moves.
-void Pictures::prepare(const RenderSetup& setup) {
-  if (live_) {
+render::LiveConfig Pictures::config_of(const PictureKey& key, const RenderSetup& setup) const {
+  render::LiveConfig config = live_config(options_, key.shown.mode);
+  config.frame.accuracy = rungs_.at(key.rung).accuracy;
+  config.frame.width = loop_.swapchain(Side::left).width();
+  config.frame.height = loop_.swapchain(Side::left).height();
+  config.blue_first = loop_.swapchain(Side::left).format() == VK_FORMAT_B8G8R8A8_SRGB;
+  config.eyes = setup.sides.size();
+  config.pairs = setup.pairs.size();
+  if (config.frame.mode == render::Mode::adof) {
+    config.guard_px = guard_of(setup, config.frame.width, config.frame.height);
+  }
+  config.hidden = hidden_.areas(setup);
+  return config;
+}
+
+// A small picture of the same kernels: those of one that may leave out what is hidden are not those of other frames. It
+// hides nothing, so that all of them run.
+void Pictures::prepare(const PictureKey& key, const RenderSetup& setup) {
+  render::LiveConfig config = config_of(key, setup);
+  if (!config.hidden) {
+    renderer_.prepare(setup.lenses, setup.views, config.frame);
     return;
   }
-  config_.eyes = setup.sides.size();
-  config_.pairs = setup.pairs.size();
-  if (config_.frame.mode == render::Mode::adof) {
-    config_.guard_px = guard_of(setup, config_.frame.width, config_.frame.height);
+  constexpr int kSide = 8;
+  config.frame.width = config.frame.height = kSide;
+  config.frame.samples = 1;
+  config.guard_px = 0;
+  config.hidden = std::vector<tracking::HiddenArea>(config.eyes);
+  const render::LiveFrame small(renderer_, setup.lenses, setup.views, config,
+                                std::vector<std::vector<VkImage>>(config.eyes));
+}
+
+bool Pictures::has(const PictureKey& key) const {
+  return std::ranges::find(made_, key, &Made::key) != made_.end();
+}
+
+void Pictures::make(const PictureKey& key, const RenderSetup& setup) {
+  if (made_.size() >= rungs_.size() + kMost) {
+    made_.pop_back();
   }
   std::vector<std::vector<VkImage>> images;
   for (const Side side : setup.sides) {
     images.push_back(loop_.swapchain(side).images());
   }
-  if (masks_.is_offered()) {
-    config_.hidden = hidden_areas(setup);
-  }
-  live_ = std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config_, images);
+  const render::LiveConfig config = config_of(key, setup);
+  made_.push_back({key, config,
+                   std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config, images),
+                   hidden_.changes()});
 }
 
-std::vector<tracking::HiddenArea> Pictures::hidden_areas(const RenderSetup& setup) {
-  std::vector<tracking::HiddenArea> areas;
-  mask_problem_.clear();
-  for (std::size_t at = 0; at < setup.sides.size(); ++at) {
-    const xr::HiddenView& view = masks_.view(setup.sides[at]);
-    const double hidden =
-        tracking::hidden_pixels(view.area, setup.views[at].view.fov, kMaskSide, kMaskSide).hidden_fraction();
-    const bool is_sound = hidden <= kMostHidden;
-    areas.push_back(is_sound ? view.area : tracking::HiddenArea{});
-    if (!is_sound || !view.problem.empty()) {
-      mask_problem_ = is_sound ? view.problem : "the runtime's mask hides nearly all of a view";
-    }
-  }
-  return areas;
-}
-
-void Pictures::start(const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {
+void Pictures::start(const PictureKey& key, const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {
+  made_.splice(made_.begin(), made_, std::ranges::find(made_, key, &Made::key));
   std::vector<std::uint32_t> of_eyes;
   for (const Side side : setup.sides) {
     of_eyes.push_back(images[static_cast<std::size_t>(side)]);
   }
-  if (masks_.has_changed()) {
-    live_->hide(hidden_areas(setup));
+  Made& made = made_.front();
+  if (made.mask != hidden_.changes()) {
+    made.frame->hide(*hidden_.areas(setup));
+    made.mask = hidden_.changes();
   }
-  live_->start(setup.lenses, setup.views, of_eyes);
+  made.frame->start(setup.lenses, setup.views, of_eyes);
+  shown_ = under_way_ = true;
 }
 
-std::vector<render::vk::StageTime> Pictures::wait() {
-  return live_ ? live_->wait() : std::vector<render::vk::StageTime>{};
+std::optional<Pictures::Done> Pictures::wait() {
+  if (!under_way_) {
+    return std::nullopt;
+  }
+  under_way_ = false;
+  return Done{made_.front().key, made_.front().frame->wait()};
 }
 
 std::optional<render::Image8> Pictures::read_picture() {
-  if (!live_) {
+  if (!shown_) {
     return std::nullopt;
   }
-  render::Image8 picture = render::black_image(2 * config_.frame.width, config_.frame.height);
-  for (std::size_t eye = 0; eye < config_.eyes; ++eye) {
-    const render::Image8 one = live_->read_picture(eye);
+  Made& last = made_.front();
+  const render::FrameConfig& size = last.config.frame;
+  render::Image8 picture = render::black_image(2 * size.width, size.height);
+  for (std::size_t eye = 0; eye < last.config.eyes; ++eye) {
+    const render::Image8 one = last.frame->read_picture(eye);
     const std::size_t row = 3 * static_cast<std::size_t>(one.width);
     for (std::size_t y = 0; y < static_cast<std::size_t>(one.height); ++y) {
       std::copy_n(one.rgb.begin() + static_cast<std::ptrdiff_t>(y * row), row,
@@ -102,6 +122,11 @@ std::optional<render::Image8> Pictures::read_picture() {
     }
   }
   return picture;
+}
+
+std::optional<int> Pictures::guard_px(const PictureKey& key) const {
+  const auto made = std::ranges::find(made_, key, &Made::key);
+  return made == made_.end() ? std::nullopt : std::optional(made->config.guard_px);
 }
 
 }  // namespace app

@@ -1,53 +1,88 @@
-// The running pictures of a session in the headset: made for what is worn and for the images of one runtime's
-// swapchains, and gone with them.
+// The running pictures of a session in the headset: made for what is worn and shown, for a rung of accuracy and for the
+// images of one runtime's swapchains, and gone with them.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <list>
 #include <memory>
-#include <span>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "app/render_setup.hpp"
+#include "app/vr/hidden_views.hpp"
+#include "app/vr/options.hpp"
+#include "app/vr/shown.hpp"
+#include "render/governor.hpp"
 #include "render/live_frame.hpp"
 #include "xr/frame_loop.hpp"
-#include "xr/visibility_mask.hpp"
 
 namespace app {
 
+struct PictureKey {
+  ShownPicture shown;
+  std::size_t rung = 0;
+  bool operator==(const PictureKey&) const = default;
+};
+
 class Pictures {
  public:
-  // Refers to renderer, loop and masks. config: see VrWorld.
-  Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, xr::VisibilityMasks& masks,
-           const render::LiveConfig& config);
+  // Refers to all of them but the rungs.
+  Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, HiddenViews& hidden, const VrOptions& options,
+           std::vector<render::GovernorRung> rungs);
 
-  // Makes the picture now, if there is none yet.
-  void prepare(const RenderSetup& setup);
+  // Compiles what the picture needs, so that make() and start() compile nothing. setup: with the pairs that it shows,
+  // here and below.
+  void prepare(const PictureKey& key, const RenderSetup& setup);
 
-  // Submits a picture into the swapchains' images, by Side. It must have been prepared.
-  void start(const RenderSetup& setup, const std::array<std::uint32_t, 2>& images);
-  // Until the last picture is done; its stages. Empty where none was started.
-  std::vector<render::vk::StageTime> wait();
+  [[nodiscard]] bool has(const PictureKey& key) const;
+  // Takes memory on the device and draws once unseen. Of 2 x 2000 x 2000 pixels a picture holds about 0.7 GiB, of half
+  // the resolution a third of that; at most kMost are kept beside those of the first picture's rungs, and the one
+  // that was not shown for the longest makes room. The setup's eyes are as at the start of a session, so that a picture
+  // made late draws what one made early would.
+  void make(const PictureKey& key, const RenderSetup& setup);
+
+  // Submits a picture into the swapchains' images, by Side. It must have been made, and the one before waited for.
+  void start(const PictureKey& key, const RenderSetup& setup, const std::array<std::uint32_t, 2>& images);
+
+  // The picture under way, once it is done.
+  struct Done {
+    PictureKey key;
+    std::vector<render::vk::StageTime> stages;
+  };
+  std::optional<Done> wait();
 
   // What was shown last: left eye | right eye. Nothing where there was no picture.
   [[nodiscard]] std::optional<render::Image8> read_picture();
 
-  [[nodiscard]] int guard_px() const { return config_.guard_px; }
-  // As the runtime's masks have it now: what is hidden of the images, what is not drawn of the traced pixels, 0 to 1.
-  [[nodiscard]] double hidden_fraction() const { return live_ ? live_->hidden_fraction() : 0.0; }
-  [[nodiscard]] double left_out_fraction() const { return live_ ? live_->left_out_fraction() : 0.0; }
-  // Why a mask was not taken; empty: none was refused.
-  [[nodiscard]] const std::string& mask_problem() const { return mask_problem_; }
+  // Where it lies while it is under way and after, until the next is started. Something must have been shown.
+  [[nodiscard]] render::ShownPictures shown() const { return made_.front().frame->shown(); }
+
+  [[nodiscard]] std::optional<int> guard_px(const PictureKey& key) const;
+  // Of what is shown: the part of the images that the headset hides, the part of all traced pixels that is left out.
+  [[nodiscard]] double hidden_fraction() const { return shown_ ? made_.front().frame->hidden_fraction() : 0.0; }
+  [[nodiscard]] double left_out_fraction() const { return shown_ ? made_.front().frame->left_out_fraction() : 0.0; }
 
  private:
-  // Of each eye in the order of the views.
-  [[nodiscard]] std::vector<tracking::HiddenArea> hidden_areas(const RenderSetup& setup);
+  static constexpr std::size_t kMost = 4;
+
+  struct Made {
+    PictureKey key;
+    render::LiveConfig config;
+    std::unique_ptr<render::LiveFrame> frame;
+    int mask = 0;  // HiddenViews::changes() that it knows of
+  };
+
+  [[nodiscard]] render::LiveConfig config_of(const PictureKey& key, const RenderSetup& setup) const;
 
   render::Renderer& renderer_;
   const xr::FrameLoop& loop_;
-  xr::VisibilityMasks& masks_;
-  render::LiveConfig config_;
-  std::string mask_problem_;
-  std::unique_ptr<render::LiveFrame> live_;
+  HiddenViews& hidden_;
+  const VrOptions& options_;
+  std::vector<render::GovernorRung> rungs_;
+  std::list<Made> made_;  // the last shown first
+  bool shown_ = false;    // the first of them, if anything was
+  bool under_way_ = false;
 };
 
 }  // namespace app

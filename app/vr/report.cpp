@@ -39,12 +39,18 @@ void print(std::ostream& out, const char* where, const Times& times) {
   }
 }
 
-std::string sources_text(const VrReport& report) {
+std::string counts_text(const std::map<std::string, int>& counts) {
   std::string text;
-  for (const auto& [source, frames] : report.gaze_sources) {
-    text += (text.empty() ? "" : ", ") + source + " (" + std::to_string(frames) + " frames)";
+  for (const auto& [what, frames] : counts) {
+    text += (text.empty() ? "" : "; ") + what + " (" + std::to_string(frames) + " frames)";
   }
   return text;
+}
+
+std::string rungs_text(const VrReport& report) {
+  const std::string switched =
+      report.rung_switches == 1 ? "1 switch" : std::to_string(report.rung_switches) + " switches";
+  return counts_text(report.rungs) + ", " + switched + ", the last because of: " + report.rung_reason;
 }
 
 }  // namespace
@@ -81,7 +87,8 @@ std::string to_table(const VrReport& report) {
   std::ostringstream out;
   out << "runtime  " << report.runtime << "\nheadset  " << report.headset << "\ndevice   " << report.device
       << "\nspace    " << report.space << "\nimages   " << report.width << 'x' << report.height << " each, and "
-      << report.guard_px << " pixels around them\ngaze     " << sources_text(report) << "\nframes   " << report.shown
+      << report.guard_px << " pixels around them\ngaze     " << counts_text(report.gaze_sources) << "\nshown    "
+      << counts_text(report.pictures) << "\naccuracy " << rungs_text(report) << "\nframes   " << report.shown
       << " shown, " << report.skipped << " without a picture\n";
   if (report.hidden_fraction > 0.0) {
     out << std::fixed << std::setprecision(1) << "hidden   " << 100.0 * report.hidden_fraction
@@ -121,6 +128,10 @@ std::string to_json(const VrReport& report) {
                                     {"mask_problem", report.mask_problem},
                                     {"period_ms", 1e3 * report.period},
                                     {"gaze_frames", report.gaze_sources},
+                                    {"picture_frames", report.pictures},
+                                    {"rung_frames", report.rungs},
+                                    {"rung_switches", report.rung_switches},
+                                    {"rung_reason", report.rung_reason},
                                     {"findings", to_json_array(report.findings)},
                                     {"frames_shown", report.shown},
                                     {"frames_skipped", report.skipped},

@@ -32,9 +32,13 @@ struct VrReport {
   int guard_px = 0;
   // What the headset's lenses hide of the images; what is not drawn therefore, of all pixels that would be.
   double hidden_fraction = 0.0, left_out_fraction = 0.0;
-  std::string mask_problem;                            // why the runtime's mask was not taken; empty: it was
-  double period = 0.0;                                 // s, of the display, as the runtime last gave it
-  std::map<std::string, int> gaze_sources;             // frames by where the gaze came from
+  std::string mask_problem;                 // why the runtime's mask was not taken; empty: it was
+  double period = 0.0;                      // s, of the display, as the runtime last gave it
+  std::map<std::string, int> gaze_sources;  // frames by where the gaze came from
+  std::map<std::string, int> pictures;      // frames by what was worn and shown
+  std::map<std::string, int> rungs;         // frames by how exactly they were drawn
+  int rung_switches = 0;
+  std::string rung_reason;                             // of the last
   std::vector<ViewerFinding> findings;                 // what the person inside should know
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order

@@ -9,13 +9,23 @@
 
 #include "app/recording/session_replay.hpp"
 #include "app/vr/options.hpp"
+#include "app/vr/rungs.hpp"
+#include "app/vr/shown.hpp"
 #include "render/live_frame.hpp"
 #include "xr/spaces.hpp"
 
 namespace app {
 
-// Sizes, eyes, pairs and the guard band are for later.
-[[nodiscard]] render::LiveConfig live_config(const VrOptions& options);
+// Of a picture of this mode; sizes, eyes, pairs, accuracy and the guard band are for later.
+[[nodiscard]] render::LiveConfig live_config(const VrOptions& options, render::Mode mode);
+
+// A map that --mode asks for lies over the picture of approximate defocus.
+[[nodiscard]] ShownChoices choices_of(const VrOptions& options, const render::Scene& scene);
+
+// --accuracy: a rung's name, or auto: a governor's rungs, those of the recording, or standard for a plain trace. Throws
+// tracking::InputError for a recording with rungs that there are not.
+[[nodiscard]] RungChoice rung_choice(const VrOptions& options, const std::optional<SessionReplay>& replay,
+                                     bool tracks_gaze);
 
 [[nodiscard]] xr::SpaceChoice space_of(const std::string& name);
 [[nodiscard]] std::string name_of(XrReferenceSpaceType type);
@@ -24,6 +34,10 @@ namespace app {
 // camera. A space without a floor has its origin where the head was, so that is put at the camera.
 [[nodiscard]] tracking::Pose world_from_space(const SceneOptions& options, const render::Scene& scene,
                                               XrReferenceSpaceType type);
+// The same once the wearer has asked to be put there anew, from where the head is now: its place and where it faces are
+// the start's, its pitch and roll stay; on a floor the scene's floor stays the room's.
+[[nodiscard]] tracking::Pose recentred(const SceneOptions& options, const render::Scene& scene,
+                                       XrReferenceSpaceType type, const tracking::Pose& space_from_head);
 
 // One size for both eyes: as asked for, else that of the recording, else the larger of what is recommended for each.
 [[nodiscard]] std::array<int, 2> size_of_images(const VrOptions& options, const std::optional<SessionReplay>& replay,

@@ -43,6 +43,8 @@ class Shown {
   bool apply(xr::Control control);
 
   [[nodiscard]] ShownPicture picture() const;
+  // What is drawn where no map lies over it and the view is not clear.
+  [[nodiscard]] render::Mode base() const { return choices_.picture; }
   [[nodiscard]] bool is_clear() const { return clear_; }
   [[nodiscard]] const std::optional<std::size_t>& target() const { return target_; }
 

@@ -85,6 +85,7 @@ void expect_same(const TraceRow& a, const TraceRow& b) {
   EXPECT_EQ(a.gaze_valid, b.gaze_valid);
   EXPECT_EQ(a.eyes, b.eyes);
   EXPECT_EQ(a.source, b.source);
+  EXPECT_EQ(a.second, b.second);
 }
 
 TEST_F(GazeTraceFile, ReadsBackBitForBit) {
@@ -95,7 +96,7 @@ TEST_F(GazeTraceFile, ReadsBackBitForBit) {
   std::vector<TraceRow> rows;
   const std::string file = path("a.csv");
   {
-    GazeTraceWriter writer(file);
+    GazeTraceWriter writer(file, {.second = true});
     for (int i = 0; i < 500; ++i) {
       TraceRow row;
       row.time = 1e-3 * i + 1e-7 * unit(random);
@@ -106,6 +107,10 @@ TEST_F(GazeTraceFile, ReadsBackBitForBit) {
       row.gaze_valid = i % 7 != 0;
       row.eyes = tracking::EyesInFrame{{2e-3 + 1e-3 * unit(random), 3e-3}, {2.0 + unit(random), 1e-9}};
       row.source = i % 7 != 0 ? tracking::GazeSource::tracker : tracking::GazeSource::held;
+      if (i % 3 == 0) {  // a second pair comes and goes
+        row.second =
+            tracking::EyesBehindSecond{{glm::normalize(vector()), glm::normalize(vector())}, {0.0, 2.0 + unit(random)}};
+      }
       ASSERT_TRUE(writer.write(row));
       rows.push_back(row);
       // Each line is with the system as soon as it is written.
@@ -152,6 +157,7 @@ TEST_F(GazeTraceFile, TheWriterTakesOnlyWhatCanBeRead) {
   refused([&](TraceRow& r) { r.head.orientation = glm::dquat(0.0, 0.0, 0.0, 0.0); });
   refused([&](TraceRow& r) { r.gaze[1] = {0.0, 0.0, 0.0}; });
   refused([&](TraceRow& r) { r.gaze[0].x = std::numeric_limits<double>::infinity(); });
+  refused([&](TraceRow& r) { r.second = tracking::EyesBehindSecond{}; });
   refused([&](TraceRow& r) { r.eyes = tracking::EyesInFrame{{nan, 0.003}, {}}; });
   EXPECT_EQ(tracking::read_gaze_trace(path("c.csv")).rows.size(), 1U);
   EXPECT_THROW(GazeTraceWriter(path("no/such/folder.csv")), std::runtime_error);
@@ -213,6 +219,16 @@ TEST(GazeTraceReader, NamesLineAndColumn) {
   expect_refused(eyes + ",3,0.004,1,2,held\n", "line 2: left_pupil_m", "from 0 to 0.02");
   expect_refused(eyes + ",0.003,0.004,1,-2,held\n", "line 2: right_accommodation_D", "from 0 to 50");
   expect_refused(eyes + ",0.003,0.004,1,2,guess\n", "line 2: gaze_source", "tracker, held or head");
+  const std::string second = kHeader +
+                             ",b_left_gx,b_left_gy,b_left_gz,b_right_gx,b_right_gy,b_right_gz,b_left_accommodation_D,"
+                             "b_right_accommodation_D\n" +
+                             kRow;
+  EXPECT_EQ(parse(second + ",0,0,-1,0,0.6,-0.8,1,2\n").rows[0].second->gaze[0].y, 0.6);
+  EXPECT_FALSE(parse(second + ",0,0,0,0,0,0,0,0\n").rows[0].second);
+  expect_refused(second + ",0,0,-1,0,0,0,1,2\n", "line 2: b_right_gx", "must point somewhere");
+  expect_refused(second + ",0,0,-1,0,0,x,1,2\n", "line 2: b_right_gz", "not a number");
+  expect_refused(second + ",0,0,-1,0,0,-1,1,51\n", "line 2: b_right_accommodation_D", "from 0 to 50");
+  expect_refused(kHeader + ",b_left_gx\n" + kRow + ",0\n", "line 1", "all eight or none");
   expect_refused(std::string(10000, 'x'), "line 1", "is longer than 8192");
 }
 

@@ -67,7 +67,10 @@ TEST_F(SessionRecordTest, WhatWasRecordedComesBack) {
       if (i == 10) recorder.event(0.099, "spectacles on");
       if (i == 10) recorder.event(0.099, "recentred");
       ASSERT_TRUE(recorder.frame(row_at(0.01 * i), i < 20 ? first : second, i < 5 ? "standard" : "coarse",
-                                 i < 10 ? "none" : "A"));
+                                 i < 10 ? "none" : "A",
+                                 i < 10   ? app::ShownChange{0, {2}, "adof"}
+                                 : i < 25 ? app::ShownChange{0, {0, 1}, "adof"}
+                                          : app::ShownChange{0, {0, 1}, "power"}));
     }
     EXPECT_FALSE(recorder.frame(row_at(0.0), second, "coarse", "A")) << "time must increase";
     EXPECT_EQ(recorder.frames(), 30U);
@@ -87,8 +90,11 @@ TEST_F(SessionRecordTest, WhatWasRecordedComesBack) {
     expect_same((*frame.views)[1], first[1]);
     EXPECT_EQ(*frame.rung, i < 5 ? "standard" : "coarse");
     EXPECT_EQ(*frame.pair, i < 10 ? "none" : "A");
+    EXPECT_EQ(frame.shown->pairs, i < 10 ? (std::vector<std::size_t>{2}) : (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(frame.shown->picture, i < 25 ? "adof" : "power");
     EXPECT_EQ(replay.events_before(i).size(), i == 10 ? 2U : 0U);
   }
+  EXPECT_EQ(replay.record()->shown.size(), 3U);
   EXPECT_EQ(replay.events_before(10)[1].what, "recentred");
 }
 
@@ -122,6 +128,7 @@ TEST_F(SessionRecordTest, ATraceAloneIsEnough) {
   EXPECT_FALSE(alone.record());
   EXPECT_EQ(alone.frame(3).views, nullptr);
   EXPECT_EQ(alone.frame(3).rung, nullptr);
+  EXPECT_EQ(alone.frame(3).shown, nullptr);
   const SessionReplay with_record(example);
   ASSERT_TRUE(with_record.record());
   EXPECT_EQ(*with_record.frame(44).pair, "none");
@@ -157,6 +164,11 @@ TEST_F(SessionRecordTest, NamesTheFieldOfEveryError) {
            {"/pairs/1/frame", "\"x\"", "pairs[1].frame", "must be a number"},
            {"/pairs/0/frame", "50", "pairs[1].frame", "before the entry above it"},
            {"/events/0/time_s", "null", "events[0].time_s", "null"},
+           {"/shown", R"([{"frame": 0, "pairs": [], "picture": "adof"}])", "shown[0].pairs", "1"},
+           {"/shown", R"([{"frame": 0, "pairs": [0, 1, 2], "picture": "adof"}])", "shown[0].pairs", "2"},
+           {"/shown", R"([{"frame": 0, "pairs": [64], "picture": "adof"}])", "shown[0].pairs[0]", "from 0 to 63"},
+           {"/shown", R"([{"frame": 0, "pairs": [0], "picture": ""}])", "shown[0].picture", "is empty"},
+           {"/shown", R"([{"frame": 0, "pairs": [0], "map": ""}])", "shown[0].map", "allowed: frame, pairs, picture"},
            {"/events/0/what", "1", "events[0].what", "allowed: frame, time_s, event"},
        }) {
     SCOPED_TRACE(change.pointer);

@@ -3,16 +3,20 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "app/vr/text_panel.hpp"
 #include "render/live_frame.hpp"
 #include "tests/support/headset_program.hpp"
 #include "tests/support/lit_scene.hpp"
 #include "tests/support/monado.hpp"
+#include "tests/support/run_program.hpp"
+#include "tests/support/tiny_scene.hpp"
 #include "tests/support/x_screen.hpp"
 #include "xr/convert.hpp"
 
@@ -22,7 +26,8 @@ using app::PlateLine;
 using support::HeadsetProgram;
 using tracking::Side;
 
-constexpr int kGrey = 188;  // sRGB of linear 0.5: the wall that the words are before
+constexpr int kWindowWidth = 640, kWindowHeight = 360;  // Monado's window of its simulated headset
+constexpr int kGrey = 188;                              // sRGB of linear 0.5: the wall that the words are before
 
 app::PlateConfig fonts() {
   app::PlateConfig config;
@@ -254,6 +259,48 @@ TEST(TextPanel, ValidationLayersHaveNothingToSay) {
   ::unsetenv("XR_ENABLE_API_LAYERS");
   EXPECT_EQ(said, std::vector<std::string>{});
   EXPECT_EQ(text.str(), "");
+}
+
+// How many pixels of letters are on the screen's left and right half of the window while the program runs over a black
+// scene.
+std::array<int, 2> letters_of_program(const support::XScreen& screen, std::vector<std::string> more) {
+  const support::TemporaryFolder folder;
+  const std::string scene =
+      folder.write("dark.gltf", support::patch_gltf({support::wall(2.0F, 3.0F, 0.0F)}, {}).text());
+  std::vector<std::string> arguments{"vr", "--scene", scene, "--mode", "pinhole", "--size", "32x32", "--frames", "25"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  std::array<int, 2> most{};
+  std::atomic<bool> is_running = true;
+  std::thread program([&] {
+    const auto result =
+        support::run_program({.arguments = std::move(arguments), .time_limit = std::chrono::seconds(120)});
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    is_running = false;
+  });
+  while (is_running) {
+    const render::Image8 picture = screen.screenshot();
+    std::array<int, 2> bright{};
+    for (int y = 0; y < kWindowHeight; ++y) {
+      for (int x = 0; x < kWindowWidth; ++x) {
+        bright[x < kWindowWidth / 2 ? 0 : 1] += picture.rgb[3 * (y * picture.width + x) + 1] > 150 ? 1 : 0;
+      }
+    }
+    most = {std::max(most[0], bright[0]), std::max(most[1], bright[1])};
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  program.join();
+  return most;
+}
+
+TEST(TextPanel, TheProgramWritesInBothEyesUnlessToldNotTo) {
+  const support::XScreen screen;
+  const support::Monado monado({.visible = true});
+  // In this order: a window may keep what it showed last.
+  const auto without = letters_of_program(screen, {"--no-text"});
+  EXPECT_EQ(without[0] + without[1], 0);
+  const auto with = letters_of_program(screen, {});
+  EXPECT_GT(with[0], 100) << monado.said();
+  EXPECT_GT(with[1], 100);
 }
 
 }  // namespace

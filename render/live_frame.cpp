@@ -195,7 +195,8 @@ struct LiveFrame::State {
     }
     if (plan) {
       const DrawnLayers layers{whole->buffers, fovea ? &fovea->buffers : nullptr};
-      compositor.record(picture, frame, views.size(), *composite_upload, layers, whole->buffers.radiance, *composed);
+      // No radiance is wanted: what is bound in its place may be anything that the kernel does not read.
+      compositor.record(picture, frame, views.size(), *composite_upload, layers, *composed, *composed);
     }
   }
 

@@ -161,7 +161,7 @@ void VrConnection::prepare_pictures(const xr::Frame& frame) {
     pictures_->make({first, rung}, world_.wearer().wearing(first.pairs));
   }
   world_.report().guard_px = pictures_->guard_px({first, world_.rung()}).value_or(0);
-  prepared_ = true;
+  kernels_prepared_ = renderer_.kernels_made();
 }
 
 void VrConnection::wait_for_device() {
@@ -193,7 +193,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   world_.rungs().see_period(xr::seconds(frame.period));
   place(frame, time);
   mark("place");
-  const bool is_first = !prepared_;
+  const bool is_first = !kernels_prepared_;
   if (is_first) {
     prepare_pictures(frame);
     last = Clock::now();
@@ -215,7 +215,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     panels.push_back(&text_->panel());
   }
   mark("text");
-  pictures_->start(key, world_.wearer().setup(), images);
+  pictures_->start(key, world_.setup(), images);
   report.hidden_fraction = pictures_->hidden_fraction();
   report.left_out_fraction = pictures_->left_out_fraction();
   report.mask_problem = hidden_.problem();
@@ -237,6 +237,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
 
 void VrConnection::finish() {
   wait_for_device();
+  world_.report().kernels_late += renderer_.kernels_made() - kernels_prepared_.value_or(renderer_.kernels_made());
   if (!world_.options().screenshot.empty()) {
     if (const auto picture = pictures_->read_picture()) {
       render::write_png(world_.options().screenshot, *picture);

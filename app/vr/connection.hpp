@@ -60,8 +60,8 @@ class VrConnection {
   std::optional<Pictures> pictures_;  // once the rungs are known
   std::optional<HeadsetText> text_;   // with --no-text there is none
   std::optional<MirrorFeed> mirror_;
-  bool prepared_ = false;
-  double processor_before_ = 0.0;  // ms of this thread, before the frame was waited for
+  std::optional<std::size_t> kernels_prepared_;  // once the pictures are
+  double processor_before_ = 0.0;                // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;
 };
 

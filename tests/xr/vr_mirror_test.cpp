@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -86,15 +87,32 @@ TEST(VrMirror, ShowsWhatBothEyesAreShown) {
   EXPECT_GT(json::parse(result.out)["frames_shown"], 0);
 }
 
-TEST(VrMirror, ClosingTheWindowEndsTheSession) {
+// What was pressed in the window is in the recording as soon as it has come about.
+TEST(VrMirror, KeysReachTheSessionAndClosingTheWindowEndsIt) {
+  const support::TemporaryFolder folder;
+  const std::string trace = (folder.path() / "a.csv").string();
   const support::XScreen screen;
   const support::Monado monado;
-  auto program = start({"vr", "--mirror", "--size", "32x32", "--mode", "pinhole", "--json"});
+  auto program = start({"vr", "--mirror", "--size", "32x32", "--mode", "pinhole", "--record", trace, "--json"});
   const XWindow window(screen, kTitle);
   wait_for_picture(window, program);
+  window.press('r');
+  window.press('m');
+  const auto events = [&] {
+    std::ifstream file(trace + ".json");
+    const json record = json::parse(file, nullptr, false);  // it may be gone or in the making
+    std::vector<std::string> names;
+    for (const json& event : record.is_object() ? record["events"] : json::array()) {
+      names.push_back(event["event"]);
+    }
+    return names;
+  };
+  while (is_running(program) && events().size() < 2) {
+  }
   window.ask_to_close();
   const ProgramResult result = program.get();
   EXPECT_EQ(result.exit_status, 0) << result.err << monado.said();
+  EXPECT_EQ(events(), (std::vector<std::string>{"recentred", "map"}));
   EXPECT_GT(json::parse(result.out)["frames_shown"], 0);
 }
 

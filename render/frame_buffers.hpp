@@ -11,22 +11,24 @@
 
 namespace render {
 
-constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32, kTransferBytes = 64,
-                      kCornerBytes = 96;  // see shaders/frame.h
+constexpr std::size_t kPixelBytes = 16, kWavefrontBytes = 32, kTransferBytes = 64, kCornerBytes = 96,
+                      kShownCountsBytes = 32;  // see shaders/frame.h and shown_tiles.hpp
 
 // The buffers of one size of frame.
 struct FrameBuffers {
   struct Size {
     std::size_t pixels = 0;  // of all views
     bool wavefront = false, sums = false;
-    bool hits = false;            // what rays meet is found by a kernel of its own
-    bool transfers = false;       // rays leave their ray-transfer matrices
-    std::size_t corner_rays = 0;  // of interpolated lens rays, of all views
-    std::size_t blur_tiles = 0;   // of one view; 0: nothing is blurred
+    bool hits = false;             // what rays meet is found by a kernel of its own
+    bool transfers = false;        // rays leave their ray-transfer matrices
+    std::size_t corner_rays = 0;   // of interpolated lens rays, of all views
+    std::size_t blur_tiles = 0;    // of one view; 0: nothing is blurred
+    std::size_t listed_tiles = 0;  // words of the lists of tiles that are drawn (shown_tiles.hpp); 0: all are
 
     [[nodiscard]] bool holds(const Size& other) const {
       return pixels == other.pixels && wavefront >= other.wavefront && sums >= other.sums && hits >= other.hits &&
-             transfers >= other.transfers && corner_rays >= other.corner_rays && blur_tiles >= other.blur_tiles;
+             transfers >= other.transfers && corner_rays >= other.corner_rays && blur_tiles >= other.blur_tiles &&
+             listed_tiles == other.listed_tiles;
     }
   };
 
@@ -54,13 +56,15 @@ struct FrameBuffers {
         blur_reaches(device, s.blur_tiles * 8, vk::Memory::device),
         blur_levels(device, s.blur_tiles * gpu::kWideTexels * 16, vk::Memory::device),
         blur_squares(device, s.blur_tiles * 16 * 8, vk::Memory::device),
+        shown_tiles(device, std::max<std::size_t>(s.listed_tiles, 4) * 4, vk::Memory::device),
+        shown_counts(device, kShownCountsBytes * static_cast<std::size_t>(gpu::kMostViews), vk::Memory::device),
         radiance(device, s.pixels * 8, vk::Memory::device),
         display(device, s.pixels * 4, vk::Memory::device) {}
 
   Size size;
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, list, doubtful,
       blocks, blur_tiles, blur_wide, blur_layered, blur_wide_layered, blur_blurred, blur_narrow, blur_squared,
-      blur_reaches, blur_levels, blur_squares, radiance, display;
+      blur_reaches, blur_levels, blur_squares, shown_tiles, shown_counts, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
   int samples = 0;                    // in sums
 };

@@ -11,6 +11,7 @@
 #include "render/lens_forms/double_view.hpp"
 #include "render/map_range.hpp"
 #include "render/sample_point.hpp"
+#include "render/shown_tiles.hpp"
 
 namespace render {
 namespace {
@@ -89,6 +90,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.wavefront = config.mode != Mode::pinhole || config.keep_wavefront;
   variant_.keep_wavefront = keeps_wavefront(config, views);
   variant_.bare = config.bare;
+  variant_.listed_tiles = out.size.listed_tiles > 0;
   variant_.newton_steps = static_cast<std::uint32_t>(config.accuracy.lens.iterations);
   variant_.keep_transfer = variant_.surface_kinds != 0 && keeps_transfer(config.accuracy.lens);
   if (variant_.surface_kinds == 0) {
@@ -120,7 +122,8 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   }
   data_.view.z = device.limits().on_processor ? static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) : 1;
   data_.size = glm::ivec4(config.width, config.height, static_cast<int>(views.size()), static_cast<int>(config.mode));
-  data_.sampling = glm::ivec4(0, 0, static_cast<int>(config.seed), config.colour_map);
+  data_.sampling = glm::ivec4(0, static_cast<int>(listed_tile_words(config.width, config.height)),
+                              static_cast<int>(config.seed), config.colour_map);
   // A pinhole picture is the defocused one with nothing left to blur.
   const float threshold = config.mode == Mode::adof ? static_cast<float>(config.threshold_px) : kNoBlurDrawn;
   data_.limits = glm::vec4(threshold, kLargestBlur, std::exp2(static_cast<float>(config.exposure)), 0.0F);
@@ -236,10 +239,10 @@ void FrameJob::record_edges(vk::Commands& commands) {
     commands.barrier();
     empty_list(commands, out_.list);
     empty_list(commands, out_.doubtful);
-    dispatch_squares(commands, kernels_.get(Stage::beam_blocks, variant_),
-                     with_scene({&out_.blocks, &out_.pixels, &out_.keys}), gpu::kBeamBlock);
+    dispatch_blocks(commands, kernels_.get(Stage::beam_blocks, variant_),
+                    with_scene({&out_.blocks, &out_.pixels, &out_.keys}));
     commands.barrier();
-    dispatch_view(commands, kernels_.get(Stage::find_edges),
+    dispatch_view(commands, kernels_.get(Stage::find_edges, variant_),
                   {&out_.pixels, &out_.keys, &out_.blocks, &out_.list, &out_.doubtful});
     commands.barrier();
     dispatch_list(commands, kernels_.get(Stage::beams, variant_), with_scene({&out_.doubtful, &out_.list}),
@@ -259,7 +262,7 @@ void FrameJob::record_edges(vk::Commands& commands) {
 
 void FrameJob::record_encode(vk::Commands& commands) {
   commands.barrier();
-  dispatch(commands, kernels_.get(is_map(config_.mode) ? Stage::colour : Stage::encode),
+  dispatch(commands, kernels_.get(is_map(config_.mode) ? Stage::colour : Stage::encode, variant_),
            {is_map(config_.mode) ? &out_.wavefronts : &out_.radiance, &out_.display});
   commands.timestamp("encode");
 }
@@ -287,8 +290,25 @@ void FrameJob::dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel
   commands.dispatch(kernel, buffers, vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
 }
 
+// A kernel of those that go_by_tiles().
 void FrameJob::dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
-  dispatch_squares(commands, kernel, buffers, 1);
+  dispatch_tiles(commands, kernel, buffers, 1, 0);
+}
+
+// An invocation for each of the squares that share a beam.
+void FrameJob::dispatch_blocks(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
+  dispatch_tiles(commands, kernel, buffers, gpu::kBeamBlock, kBlockCountsAt);
+}
+
+void FrameJob::dispatch_tiles(vk::Commands& commands, const vk::Kernel& kernel, Buffers buffers, int side,
+                              std::size_t counts_at) {
+  buffers.push_back(&out_.shown_tiles);
+  if (variant_.listed_tiles) {
+    commands.dispatch_indirect(kernel, buffers, vk::bytes_of(data_), out_.shown_counts,
+                               static_cast<std::size_t>(data_.view.x) * kShownCountsBytes + counts_at);
+  } else {
+    dispatch_squares(commands, kernel, buffers, side);
+  }
 }
 
 void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {

@@ -45,6 +45,9 @@ class FrameJob {
   void empty_blur_lists(vk::Commands& commands);
   void blur_tiles(vk::Commands& commands, const BlurVariant& variant, const vk::Buffer& blurred);
   void dispatch_view(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void dispatch_blocks(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
+  void dispatch_tiles(vk::Commands& commands, const vk::Kernel& kernel, Buffers buffers, int side,
+                      std::size_t counts_at);
   void dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers);
   void dispatch_squares(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, int side);
   void dispatch_list(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers, const vk::Buffer& list);

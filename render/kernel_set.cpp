@@ -49,6 +49,8 @@ std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding>
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
+constexpr std::size_t kListedTilesAt = 10;  // shaders/group.glsl
+
 struct Recipe {
   const char* name;
   std::span<const std::uint32_t> code;
@@ -140,6 +142,26 @@ Recipe recipe_of(Stage stage) {
 
 }  // namespace
 
+bool goes_by_tiles(Stage stage) {
+  switch (stage) {
+    case Stage::rays:
+    case Stage::rays_double:
+    case Stage::between:
+    case Stage::tile:
+    case Stage::ray_query:
+    case Stage::chief:
+    case Stage::found:
+    case Stage::beam_blocks:
+    case Stage::find_edges:
+    case Stage::samples:
+    case Stage::encode:
+    case Stage::colour:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool can_trace_tiles(const vk::DeviceLimits& limits) {
   const std::uint32_t size = limits.subgroup_size;
   return limits.has_subgroup_reductions && (size == 8 || size == 16 || size == 32 || size == 64);
@@ -175,6 +197,10 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   if (recipe.constants == Constants::samples) {
     key[0] = key[5] = key[6] = 0;  // the lens is behind them
   }
+  if (variant.listed_tiles && goes_by_tiles(stage)) {
+    key[kListedTilesAt] = 1U;
+    count = kListedTilesAt + 1;
+  }
   return get(stage, key, count);
 }
 
@@ -190,7 +216,10 @@ const vk::Kernel& KernelSet::get(Stage stage, Key key, std::size_t constants) {
   if (found != kernels_.end()) {
     return found->second;
   }
-  const Recipe recipe = recipe_of(stage);
+  Recipe recipe = recipe_of(stage);
+  if (goes_by_tiles(stage)) {
+    recipe.bindings.push_back(Binding::texel_r32ui);
+  }
   return kernels_
       .emplace(key, vk::Kernel(device_, recipe.code, recipe.bindings, sizeof(gpu::FrameData),
                                std::span<const std::uint32_t>(key).first(constants), recipe.name))

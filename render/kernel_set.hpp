@@ -49,6 +49,7 @@ struct TraceVariant {
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
   bool sampled = false;            // rays are samples of distributed rays
   bool hits_known = false;         // what rays meet is found by a kernel of its own
+  bool listed_tiles = false;       // not all tiles are drawn (shown_tiles.hpp)
 };
 
 // How the kernels of approximate defocus are specialised (shaders/gather.glsl).
@@ -59,6 +60,9 @@ struct BlurVariant {
   bool encode = false;  // straight to the display's bytes
   bool wide = false;    // from a picture that wide blurs gather from (shaders/frame.h)
 };
+
+// Whether a stage goes through the picture by tiles: its last buffer is ShownTiles's list.
+[[nodiscard]] bool goes_by_tiles(Stage stage);
 
 // Whether this device can run Stage::tile: a subgroup of 8 to 64 that reduces, votes and shuffles.
 [[nodiscard]] bool can_trace_tiles(const vk::DeviceLimits& limits);
@@ -72,7 +76,7 @@ class KernelSet {
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
-  using Key = std::array<std::uint32_t, 11>;  // the constants by id, at the end the stage
+  using Key = std::array<std::uint32_t, 12>;  // the constants by id, at the end the stage
 
   const vk::Kernel& get(Stage stage, Key key, std::size_t constants);
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "render/composite.hpp"
 #include "render/frame_buffers.hpp"
@@ -11,6 +12,8 @@
 #include "render/kernel_set.hpp"
 #include "render/lens_forms/double_view.hpp"
 #include "render/lens_forms/lens_form_cache.hpp"
+#include "render/live_mask.hpp"
+#include "render/shown_tiles.hpp"
 #include "shaders/swap_red_blue.hpp"
 
 namespace render {
@@ -65,11 +68,18 @@ namespace {
 
 // A picture of all views in the making: the frame itself, or a layer of it.
 struct LivePicture {
-  LivePicture(const RendererParts& parts, const FrameConfig& frame, const std::vector<ViewSetup>& views)
+  LivePicture(const RendererParts& parts, const FrameConfig& frame, const std::vector<ViewSetup>& views, bool masked)
       : config(frame),
-        buffers(parts.device, buffers_for(frame, views, parts.traversal)),
+        buffers(parts.device, size_of(parts, frame, views, masked)),
         upload(parts.device, sizeof(gpu::ViewData) * static_cast<std::size_t>(gpu::kMostViews), vk::Memory::upload),
         double_upload(parts.device, sizeof(glm::dvec4) * double_views({}, {}).size(), vk::Memory::upload) {}
+
+  static FrameBuffers::Size size_of(const RendererParts& parts, const FrameConfig& frame,
+                                    const std::vector<ViewSetup>& views, bool masked) {
+    FrameBuffers::Size size = buffers_for(frame, views, parts.traversal);
+    size.listed_tiles = masked ? listed_tile_words(frame.width, frame.height) * views.size() : 0;
+    return size;
+  }
 
   // The lenses in the form that the pictures use.
   void write_views(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
@@ -129,6 +139,13 @@ struct LiveFrame::State {
                 vk::Memory::device),
         picture(parts.device),
         submission(parts.device) {
+    if (config.hidden) {
+      if (config.hidden->size() != config.eyes) {
+        throw std::invalid_argument("what is hidden is told of each eye");
+      }
+      const MaskedField field{config.frame.width, config.frame.height, config.guard_px};
+      mask.emplace(device, field, *config.hidden);
+    }
     divider.write(std::vector<std::uint32_t>(static_cast<std::size_t>(kDividerPixels * wanted.frame.height), ~0U));
     make_pictures(parts, guarded(views, config));
     write_views(lenses, views);
@@ -137,13 +154,13 @@ struct LiveFrame::State {
 
   void make_pictures(const RendererParts& parts, const std::vector<ViewSetup>& views) {
     if (!is_composed(frame)) {
-      whole = std::make_unique<LivePicture>(parts, frame, views);
+      whole = std::make_unique<LivePicture>(parts, frame, views, mask.has_value());
       return;
     }
     plan = plan_moving_composite(frame, views);
-    whole = std::make_unique<LivePicture>(parts, plan->whole.config, plan->whole.views);
+    whole = std::make_unique<LivePicture>(parts, plan->whole.config, plan->whole.views, mask.has_value());
     if (plan->fovea) {
-      fovea = std::make_unique<LivePicture>(parts, plan->fovea->config, plan->fovea->views);
+      fovea = std::make_unique<LivePicture>(parts, plan->fovea->config, plan->fovea->views, false);
     }
     const std::size_t data_bytes = sizeof(gpu::CompositeData) * static_cast<std::size_t>(gpu::kMostViews);
     composite_upload = std::make_unique<vk::Buffer>(device, data_bytes, vk::Memory::upload);
@@ -153,6 +170,9 @@ struct LiveFrame::State {
   void write_views(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views) {
     const lenses::LensModel& worn = forms.in_form(lenses, frame.accuracy.lens);
     const std::vector<ViewSetup> now = guarded(views, config);
+    if (mask) {
+      mask->update({whole->buffers, whole->config}, views);
+    }
     if (!plan) {
       whole->write_views(worn, now);
       return;
@@ -243,6 +263,7 @@ struct LiveFrame::State {
   LensFormCache forms;
   std::optional<CompositePlan> plan;  // of a frame with fewer traced pixels than shown ones
   Compositor compositor;
+  std::optional<LiveMask> mask;
   std::unique_ptr<LivePicture> whole, fovea;
   std::unique_ptr<vk::Buffer> composite_upload, composed;
   vk::Buffer divider;
@@ -279,14 +300,29 @@ void LiveFrame::start(const lenses::LensModel& lenses, const std::vector<ViewSet
   (void)s.submission.wait();
   s.write_views(lenses, views);
   std::vector<vk::Commands*> work{&s.picture};
-  for (std::size_t eye = 0; eye < s.copies.size(); ++eye) {
-    work.push_back(&s.copies[eye].at(images[eye]));
+  for (std::size_t eye = 0; eye < images.size(); ++eye) {
+    work.push_back(&s.copies.at(eye).at(images[eye]));
   }
   s.submission.start(work);
 }
 
 std::vector<vk::StageTime> LiveFrame::wait() {
   return summed(state_->submission.wait());
+}
+
+void LiveFrame::hide(std::vector<tracking::HiddenArea> hidden) {
+  if (!state_->mask) {
+    throw std::invalid_argument("this running picture was made to draw all of its images");
+  }
+  state_->mask->set(std::move(hidden));
+}
+
+double LiveFrame::hidden_fraction() const {
+  return state_->mask ? state_->mask->hidden_fraction() : 0.0;
+}
+
+double LiveFrame::left_out_fraction() const {
+  return state_->mask ? state_->mask->left_out_fraction() : 0.0;
 }
 
 ShownPictures LiveFrame::shown() const {

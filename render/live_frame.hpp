@@ -5,12 +5,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/mirror_copy.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/external.hpp"
+#include "tracking/hidden_area.hpp"
 
 namespace render {
 
@@ -22,6 +24,8 @@ struct LiveConfig {
   std::size_t eyes = 2;
   bool blue_first = false;  // the byte order of the images
   std::size_t pairs = 1;    // 2: pair A left, pair B right of a divider in each eye's image
+  // What is hidden of each eye's image, where a headset may say so; see hide(). Absent: all is always drawn.
+  std::optional<std::vector<tracking::HiddenArea>> hidden = {};
 };
 
 class LiveFrame {
@@ -36,10 +40,18 @@ class LiveFrame {
   LiveFrame(const LiveFrame&) = delete;
   LiveFrame& operator=(const LiveFrame&) = delete;
 
-  // Waits for the frame before, then submits this one for image images[i] of eye i. `lenses` may have moved since the
-  // constructor, no more.
+  // Waits for the frame before, then submits this one for image images[i] of eye i, or for none (read_picture() has it
+  // all the same). `lenses` may have moved since the constructor, no more.
   void start(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
              std::span<const std::uint32_t> images);
+  // From the next frame on this is hidden of each eye's image instead: what nobody sees is black and costs nothing but
+  // for the guard band around what is seen. A layer around the gaze is drawn in full. Nothing is compiled. Throws
+  // std::invalid_argument without LiveConfig::hidden.
+  void hide(std::vector<tracking::HiddenArea> hidden);
+  // Of the images' pixels what is hidden; of those traced what is not drawn: 0 to 1.
+  [[nodiscard]] double hidden_fraction() const;
+  [[nodiscard]] double left_out_fraction() const;
+
   // Until the frame is done; the device's times of its stages.
   std::vector<vk::StageTime> wait();
 

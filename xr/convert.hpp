@@ -11,6 +11,11 @@ namespace xr {
 [[nodiscard]] XrPosef to_xr(const tracking::Pose& pose);
 [[nodiscard]] tracking::FieldOfView fov_of(const XrFovf& fov);
 
+// OpenXR's views of PRIMARY_STEREO: 0 is the left eye's.
+[[nodiscard]] constexpr std::uint32_t view_index(tracking::Side side) {
+  return side == tracking::Side::left ? 0 : 1;
+}
+
 inline constexpr XrPosef kIdentityPose{{0.0F, 0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 0.0F}};
 
 }  // namespace xr

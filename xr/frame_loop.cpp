@@ -14,11 +14,6 @@ using tracking::Side;
 constexpr auto kStereo = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 constexpr std::chrono::milliseconds kIdlePoll{4};  // OpenXR has no call that waits for an event
 
-// OpenXR's views of PRIMARY_STEREO: 0 is the left eye's.
-constexpr std::size_t view_index(Side side) {
-  return side == Side::left ? 0 : 1;
-}
-
 std::array<XrViewConfigurationView, 2> view_configurations(const Instance& instance) {
   std::array<XrViewConfigurationView, 2> views{};
   views.fill({XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, 0, 0, 0, 0, 0, 0});

@@ -48,9 +48,11 @@ VrConnection::VrConnection(VrWorld& world, ControlSource more_controls, MirrorLi
       gaze_actions_(instance_, bindings_),
       controls_(instance_, bindings_),
       loop_(session_, {.space = space_of(world.options().space), .size = size_of_images(world, instance_)}),
+      hidden_(session_),
       world_from_space_(world_from_space(world.options().scene, world.scene(), loop_.space().type())) {
   bindings_.attach(session_);
   gaze_input_ = std::make_unique<xr::GazeInput>(gaze_actions_, session_);
+  loop_.on_event([this](const XrEventDataBuffer& event) { hidden_.handle(event); });
   loop_.while_idle([this] { return !stop_if_wanted(); });
   if (!world.options().no_text) {
     text_.emplace(device_, session_, loop_);
@@ -62,7 +64,7 @@ VrConnection::VrConnection(VrWorld& world, ControlSource more_controls, MirrorLi
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
   const xr::GazeSupport gaze = gaze_actions_.support();
   world_.choose_rungs(gaze.per_eye || gaze.combined);
-  pictures_.emplace(renderer_, loop_, world.options(), world.rungs().rungs());
+  pictures_.emplace(renderer_, loop_, hidden_, world.options(), world.rungs().rungs());
   compile_pictures();
 }
 
@@ -217,6 +219,9 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   }
   mark("text");
   pictures_->start(key, world_.setup(), images);
+  report.hidden_fraction = pictures_->hidden_fraction();
+  report.left_out_fraction = pictures_->left_out_fraction();
+  report.mask_problem = hidden_.problem();
   mark("submit");
   const double to_submit = since(frame.woken);
   loop_.show(frame, panels);

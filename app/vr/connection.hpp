@@ -56,6 +56,7 @@ class VrConnection {
   xr::Controls controls_;
   std::unique_ptr<xr::GazeInput> gaze_input_;  // once the bindings are attached
   xr::FrameLoop loop_;
+  HiddenViews hidden_;
   tracking::Pose world_from_space_;
   std::optional<Pictures> pictures_;  // once the rungs are known
   std::optional<HeadsetText> text_;   // with --no-text there is none

@@ -28,9 +28,9 @@ int guard_of(const RenderSetup& setup, int width, int height) {
 
 }  // namespace
 
-Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, const VrOptions& options,
+Pictures::Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, HiddenViews& hidden, const VrOptions& options,
                    std::vector<render::GovernorRung> rungs)
-    : renderer_(renderer), loop_(loop), options_(options), rungs_(std::move(rungs)) {}
+    : renderer_(renderer), loop_(loop), hidden_(hidden), options_(options), rungs_(std::move(rungs)) {}
 
 // What is recorded for the device depends on the lenses and on how wide the blur can be, and on nothing that moves.
 render::LiveConfig Pictures::config_of(const PictureKey& key, const RenderSetup& setup) const {
@@ -44,11 +44,25 @@ render::LiveConfig Pictures::config_of(const PictureKey& key, const RenderSetup&
   if (config.frame.mode == render::Mode::adof) {
     config.guard_px = guard_of(setup, config.frame.width, config.frame.height);
   }
+  config.hidden = hidden_.areas(setup);
   return config;
 }
 
+// A small picture of the same kernels: those of one that may leave out what is hidden are not those of other frames. It
+// hides nothing, so that all of them run.
 void Pictures::prepare(const PictureKey& key, const RenderSetup& setup) {
-  renderer_.prepare(setup.lenses, setup.views, config_of(key, setup).frame);
+  render::LiveConfig config = config_of(key, setup);
+  if (!config.hidden) {
+    renderer_.prepare(setup.lenses, setup.views, config.frame);
+    return;
+  }
+  constexpr int kSide = 8;
+  config.frame.width = config.frame.height = kSide;
+  config.frame.samples = 1;
+  config.guard_px = 0;
+  config.hidden = std::vector<tracking::HiddenArea>(config.eyes);
+  const render::LiveFrame small(renderer_, setup.lenses, setup.views, config,
+                                std::vector<std::vector<VkImage>>(config.eyes));
 }
 
 bool Pictures::has(const PictureKey& key) const {
@@ -64,8 +78,9 @@ void Pictures::make(const PictureKey& key, const RenderSetup& setup) {
     images.push_back(loop_.swapchain(side).images());
   }
   const render::LiveConfig config = config_of(key, setup);
-  made_.push_back(
-      {key, config, std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config, images)});
+  made_.push_back({key, config,
+                   std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config, images),
+                   hidden_.changes()});
 }
 
 void Pictures::start(const PictureKey& key, const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {
@@ -74,7 +89,12 @@ void Pictures::start(const PictureKey& key, const RenderSetup& setup, const std:
   for (const Side side : setup.sides) {
     of_eyes.push_back(images[static_cast<std::size_t>(side)]);
   }
-  made_.front().frame->start(setup.lenses, setup.views, of_eyes);
+  Made& made = made_.front();
+  if (made.mask != hidden_.changes()) {
+    made.frame->hide(*hidden_.areas(setup));
+    made.mask = hidden_.changes();
+  }
+  made.frame->start(setup.lenses, setup.views, of_eyes);
   shown_ = under_way_ = true;
 }
 

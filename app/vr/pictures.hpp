@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/render_setup.hpp"
+#include "app/vr/hidden_views.hpp"
 #include "app/vr/options.hpp"
 #include "app/vr/shown.hpp"
 #include "render/governor.hpp"
@@ -27,7 +28,7 @@ struct PictureKey {
 class Pictures {
  public:
   // Refers to all of them but the rungs.
-  Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, const VrOptions& options,
+  Pictures(render::Renderer& renderer, const xr::FrameLoop& loop, HiddenViews& hidden, const VrOptions& options,
            std::vector<render::GovernorRung> rungs);
 
   // Compiles what the picture needs, so that make() and start() compile nothing. setup: with the pairs that it shows,
@@ -58,6 +59,9 @@ class Pictures {
   [[nodiscard]] render::ShownPictures shown() const { return made_.front().frame->shown(); }
 
   [[nodiscard]] std::optional<int> guard_px(const PictureKey& key) const;
+  // Of what is shown: the part of the images that the headset hides, the part of all traced pixels that is left out.
+  [[nodiscard]] double hidden_fraction() const { return shown_ ? made_.front().frame->hidden_fraction() : 0.0; }
+  [[nodiscard]] double left_out_fraction() const { return shown_ ? made_.front().frame->left_out_fraction() : 0.0; }
 
  private:
   static constexpr std::size_t kMost = 4;
@@ -66,12 +70,14 @@ class Pictures {
     PictureKey key;
     render::LiveConfig config;
     std::unique_ptr<render::LiveFrame> frame;
+    int mask = 0;  // HiddenViews::changes() that it knows of
   };
 
   [[nodiscard]] render::LiveConfig config_of(const PictureKey& key, const RenderSetup& setup) const;
 
   render::Renderer& renderer_;
   const xr::FrameLoop& loop_;
+  HiddenViews& hidden_;
   const VrOptions& options_;
   std::vector<render::GovernorRung> rungs_;
   std::list<Made> made_;  // the last shown first

@@ -90,6 +90,13 @@ std::string to_table(const VrReport& report) {
       << report.guard_px << " pixels around them\ngaze     " << counts_text(report.gaze_sources) << "\nshown    "
       << counts_text(report.pictures) << "\naccuracy " << rungs_text(report) << "\nframes   " << report.shown
       << " shown, " << report.skipped << " without a picture\n";
+  if (report.hidden_fraction > 0.0) {
+    out << std::fixed << std::setprecision(1) << "hidden   " << 100.0 * report.hidden_fraction
+        << " % of each image by the headset, " << 100.0 * report.left_out_fraction << " % of all pixels left out\n";
+  }
+  if (!report.mask_problem.empty()) {
+    out << "hidden   nothing: " << report.mask_problem << '\n';
+  }
   out << to_table(report.findings);
   if (report.reconnections > 0) {
     out << "runtimes " << report.reconnections + 1 << ", the others after a loss\n";
@@ -116,6 +123,9 @@ std::string to_json(const VrReport& report) {
                                     {"space", report.space},
                                     {"size", std::to_string(report.width) + "x" + std::to_string(report.height)},
                                     {"guard_px", report.guard_px},
+                                    {"hidden_fraction", report.hidden_fraction},
+                                    {"left_out_fraction", report.left_out_fraction},
+                                    {"mask_problem", report.mask_problem},
                                     {"period_ms", 1e3 * report.period},
                                     {"gaze_frames", report.gaze_sources},
                                     {"picture_frames", report.pictures},

@@ -30,6 +30,9 @@ struct VrReport {
   std::string runtime, headset, device, space;
   int width = 0, height = 0;  // of each eye's image
   int guard_px = 0;
+  // What the headset's lenses hide of the images; what is not drawn therefore, of all pixels that would be.
+  double hidden_fraction = 0.0, left_out_fraction = 0.0;
+  std::string mask_problem;                 // why the runtime's mask was not taken; empty: it was
   double period = 0.0;                      // s, of the display, as the runtime last gave it
   std::map<std::string, int> gaze_sources;  // frames by where the gaze came from
   std::map<std::string, int> pictures;      // frames by what was worn and shown

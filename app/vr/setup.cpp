@@ -186,6 +186,7 @@ std::vector<std::pair<std::string, std::string>> recorded_options(const VrOption
 std::vector<std::string> wanted_extensions() {
   std::vector<std::string> names = xr::gaze_extensions();
   names.emplace_back(XR_EXT_LOCAL_FLOOR_EXTENSION_NAME);
+  names.emplace_back(XR_KHR_VISIBILITY_MASK_EXTENSION_NAME);
   return names;
 }
 

@@ -7,6 +7,7 @@
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
 #include "render/shaders/beam.glsl"
+#define SHOWN_TILES_AT 13
 #include "render/shaders/group.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,9 +16,18 @@ layout(binding = 11) uniform usamplerBuffer pixels;
 layout(binding = 12) uniform usamplerBuffer keys;
 #include "render/shaders/edge_test.glsl"
 
+// Of listed tiles, of four blocks each, a group takes sixteen.
+ivec2 block_in_picture() {
+  if (kListedTiles == 0u) {
+    return pixel_in_picture();
+  }
+  uint k = gl_LocalInvocationIndex;
+  return ivec2(2u * shown_tile(16u * group_index() + k / 4u) + uvec2(k & 1u, (k >> 1) & 1u));
+}
+
 void main() {
   ivec2 size = frame.size.xy;
-  ivec2 first = kBeamBlock * pixel_in_picture();
+  ivec2 first = kBeamBlock * block_in_picture();
   if (first.x >= size.x || first.y >= size.y) {
     return;
   }

@@ -4,6 +4,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#define SHOWN_TILES_AT 13
 #include "render/shaders/group.glsl"
 #include "render/shaders/chief_out.glsl"
 

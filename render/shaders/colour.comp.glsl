@@ -9,6 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform samplerBuffer wavefronts;
 layout(std430, binding = 1) writeonly buffer Display { uint display[]; };
 layout(push_constant) uniform Frame { FrameData frame; };
+#define SHOWN_TILES_AT 2
 #include "render/shaders/group.glsl"
 
 void main() {

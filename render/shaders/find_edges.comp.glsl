@@ -12,6 +12,7 @@ layout(binding = 2) uniform usamplerBuffer blocks;
 layout(std430, binding = 3) buffer Edges { uint edges[]; };
 layout(std430, binding = 4) buffer Doubtful { uint doubtful[]; };
 layout(push_constant) uniform Frame { FrameData frame; };
+#define SHOWN_TILES_AT 5
 #include "render/shaders/group.glsl"
 #include "render/shaders/edge_test.glsl"
 

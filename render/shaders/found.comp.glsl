@@ -6,6 +6,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#define SHOWN_TILES_AT 17
 #include "render/shaders/group.glsl"
 #include "render/shaders/chief_out.glsl"
 

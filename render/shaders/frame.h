@@ -12,13 +12,14 @@ const int kModeBlur = 6;
 // 112 bytes of push constants, the same for every kernel of a frame.
 struct FrameData {
   ivec4 size;      // width, height, views, mode
-  ivec4 sampling;  // index of this sample (dof), -, seed, colour map
+  ivec4 sampling;  // index of this sample (dof), words from one view's list of tiles to the next, seed, colour map
   vec4 limits;     // smallest blur drawn (px), largest blur (px), exposure factor,
                    // how many pixels the pupil's half sets apart what lies a dioptre apart
   vec4 map_range;  // low, high, unit factor, -
   // x: the view of this dispatch. Here and not a workgroup's index: what a push constant selects in a uniform buffer is
   // one load for all invocations of a software device, what anything else selects is one for each.
-  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl). w: 0.
+  // y: the round of edge rays, 0 or 1. z: between how many threads the device divides a dispatch (group.glsl). w: 0,
+  // as an index.
   ivec4 view;
   uvec4 sample_point;  // dof: the point that all pixels make their own (sample_pattern.h)
   vec4 corners;  // of interpolated lens rays: pixels between them along x and y, how many along x and y

@@ -2,7 +2,27 @@
 // waits for the slowest, and a picture's halves seldom cost the same: so rows are dealt out in turn, as many at a time
 // as there are threads (frame.view.z; 1 leaves the order alone).
 
+#ifdef SHOWN_TILES_AT  // a kernel that goes through the picture by tiles of 8 x 8 pixels; its binding for their list
+layout(constant_id = 10) const uint kListedTiles = 0u;  // 1: where only some are drawn (render/shown_tiles.hpp)
+layout(binding = SHOWN_TILES_AT) uniform usamplerBuffer shown_tiles;
+
+// The tile at a place of the view's list; one beyond the picture where the list has ended.
+uvec2 shown_tile(uint place) {
+  uint tile = texelFetch(shown_tiles, frame.view.x * frame.sampling.y + int(place)).x;
+  return uvec2(tile & 0xffffu, tile >> 16);
+}
+
+uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+#else
+const uint kListedTiles = 0u;
+uint group_index() { return 0u; }
+uvec2 shown_tile(uint place) { return uvec2(place); }
+#endif
+
 uvec2 group_in_picture() {
+  if (kListedTiles != 0u) {
+    return shown_tile(group_index());
+  }
   float hands = float(max(frame.view.z, 1));
   float rows = float(gl_NumWorkGroups.y);
   float y = float(gl_WorkGroupID.y);
@@ -19,3 +39,6 @@ uvec2 group_in_picture() {
 
 // The pixel of an invocation of a group of 8 x 8.
 ivec2 pixel_in_picture() { return ivec2(group_in_picture() * 8u + gl_LocalInvocationID.xy); }
+
+// The same where all pixels cost alike, so that the device's own order does.
+ivec2 pixel_in_order() { return kListedTiles != 0u ? pixel_in_picture() : ivec2(gl_GlobalInvocationID.xy); }

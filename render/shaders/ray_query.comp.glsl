@@ -5,6 +5,7 @@
 // tests of its own; whether it holds for the ray is tested with the arithmetic of the per-ray traversal, else the pixel
 // is left out (left_out.comp.glsl), so that pictures agree.
 #include "render/shaders/scene_bindings.glsl"
+#define SHOWN_TILES_AT 15
 #include "render/shaders/group.glsl"
 #include "render/shaders/list.glsl"
 

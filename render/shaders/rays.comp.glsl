@@ -8,12 +8,14 @@
 #include "render/shaders/aim.glsl"
 #include "render/shaders/ray_out.glsl"
 #include "render/shaders/list.glsl"
+#define SHOWN_TILES_AT 15
+#include "render/shaders/group.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 12) buffer Unsettled { uint unsettled[]; };
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_order();
   int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;

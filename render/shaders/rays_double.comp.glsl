@@ -23,6 +23,8 @@ layout(std430, binding = 3) writeonly buffer Directions { vec4 directions[]; };
 layout(std430, binding = 4) writeonly buffer Kept { vec4 kept[]; };
 layout(binding = 5) uniform samplerBuffer kept_wavefronts;
 layout(push_constant) uniform Frame { FrameData frame; };
+#define SHOWN_TILES_AT 6
+#include "render/shaders/group.glsl"
 
 dvec4 doubles(uvec4 a, uvec4 b) {
   return dvec4(packDouble2x32(a.xy), packDouble2x32(a.zw), packDouble2x32(b.xy), packDouble2x32(b.zw));
@@ -97,7 +99,7 @@ RayTransfer traced_transfer(LensData lens, SightLine line) {
 bool is_finite(dvec3 v) { return all(lessThan(abs(v), dvec3(1e30))); }
 
 void main() {
-  ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 p = pixel_in_order();
   int eye = frame.view.x;
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;

@@ -7,6 +7,7 @@
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#define SHOWN_TILES_AT 15
 #include "render/shaders/group.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -27,6 +27,7 @@ layout(binding = 3) uniform samplerBuffer bvh_triangles;
 layout(std430, binding = 4) writeonly buffer Hits { uint hits[]; };
 layout(std430, binding = 5) buffer LeftOut { uint left_out[]; };  // pixels to be traced one by one
 layout(push_constant) uniform Frame { FrameData frame; };
+#define SHOWN_TILES_AT 6
 #include "render/shaders/group.glsl"
 
 #include "render/shaders/triangle_hit.glsl"

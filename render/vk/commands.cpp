@@ -222,17 +222,17 @@ void Commands::dispatch(const Kernel& kernel, std::span<const Buffer* const> buf
 }
 
 void Commands::dispatch_indirect(const Kernel& kernel, std::span<const Buffer* const> buffers,
-                                 std::span<const std::byte> push_constants, const Buffer& counts) {
+                                 std::span<const std::byte> push_constants, const Buffer& counts, std::size_t offset) {
   const KernelState& made = *kernel.state();
   auto& commands = state_->recording();
   check_dispatch(made, buffers, push_constants, {1, 1, 1});
-  if (counts.bytes() < 3 * sizeof(std::uint32_t)) {
+  if (offset % 4 != 0 || counts.bytes() < offset + 3 * sizeof(std::uint32_t)) {
     throw std::invalid_argument("kernel " + made.name + ": three counts of workgroups are 12 bytes, not " +
-                                std::to_string(counts.bytes()));
+                                std::to_string(counts.bytes()) + " from " + std::to_string(offset) + " on");
   }
   guarded("recording the kernel " + made.name, [&] {
     bind(*state_, kernel, buffers, push_constants);
-    commands.dispatchIndirect(*counts.state()->buffer, 0);
+    commands.dispatchIndirect(*counts.state()->buffer, offset);
   });
   state_->kept.push_back(counts.state());
 }

@@ -41,10 +41,10 @@ class Commands {
   void dispatch(const Kernel& kernel, std::initializer_list<const Buffer*> buffers,
                 std::span<const std::byte> push_constants, std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
 
-  // The same with the counts of workgroups x, y, z read from the start of `counts` when it runs. Counts beyond the
-  // device's limits are the caller's to avoid.
+  // The same with the counts of workgroups x, y, z read from `counts`, at an offset of whole words, when it runs.
+  // Counts beyond the device's limits are the caller's to avoid.
   void dispatch_indirect(const Kernel& kernel, std::span<const Buffer* const> buffers,
-                         std::span<const std::byte> push_constants, const Buffer& counts);
+                         std::span<const std::byte> push_constants, const Buffer& counts, std::size_t offset = 0);
 
   // What follows sees all that was written before it. Runs follow each other and the host's reads and writes without
   // one.

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/headset_device.hpp"
 #include "xr/frame_loop.hpp"
@@ -9,8 +12,9 @@
 namespace support {
 
 struct HeadsetProgram {
-  explicit HeadsetProgram(const xr::FrameLoopConfig& config = {}, bool validation = false)
-      : instance({.application = "headset test", .wanted_extensions = {XR_EXT_LOCAL_FLOOR_EXTENSION_NAME}}),
+  explicit HeadsetProgram(const xr::FrameLoopConfig& config = {}, bool validation = false,
+                          std::vector<std::string> extensions = {XR_EXT_LOCAL_FLOOR_EXTENSION_NAME})
+      : instance({.application = "headset test", .wanted_extensions = std::move(extensions)}),
         device(app::open_headset_device(instance, {.validation = validation})),
         session(instance, app::graphics_of(device)),
         loop(session, config) {}

@@ -1,6 +1,7 @@
 #include "app/vr/pictures.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "app/vr/setup.hpp"
 #include "render/guard_band.hpp"
@@ -78,9 +79,19 @@ void Pictures::make(const PictureKey& key, const RenderSetup& setup) {
     images.push_back(loop_.swapchain(side).images());
   }
   const render::LiveConfig config = config_of(key, setup);
-  made_.push_back({key, config,
-                   std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config, images),
-                   hidden_.changes()});
+  const auto frame = [&] {
+    return std::make_unique<render::LiveFrame>(renderer_, setup.lenses, setup.views, config, images);
+  };
+  try {
+    made_.push_back({key, config, frame(), hidden_.changes()});
+  } catch (const render::vk::DeviceError&) {
+    if (made_.size() < 2) {
+      throw;
+    }
+    // A device with little memory keeps the last shown alone: the mirror may be copying it.
+    made_.erase(std::next(made_.begin()), made_.end());
+    made_.push_back({key, config, frame(), hidden_.changes()});
+  }
 }
 
 void Pictures::start(const PictureKey& key, const RenderSetup& setup, const std::array<std::uint32_t, 2>& images) {

@@ -38,8 +38,8 @@ class Pictures {
   [[nodiscard]] bool has(const PictureKey& key) const;
   // Takes memory on the device and draws once unseen. Of 2 x 2000 x 2000 pixels a picture holds about 0.7 GiB, of half
   // the resolution a third of that; at most kMost are kept beside those of the first picture's rungs, and the one
-  // that was not shown for the longest makes room. The setup's eyes are as at the start of a session, so that a picture
-  // made late draws what one made early would.
+  // that was not shown for the longest makes room, on a device with less memory all of them but the last. The setup's
+  // eyes are as at the start of a session, so that a picture made late draws what one made early would.
   void make(const PictureKey& key, const RenderSetup& setup);
 
   // Submits a picture into the swapchains' images, by Side. It must have been made, and the one before waited for.

@@ -30,4 +30,9 @@ std::vector<ViewerFinding> PrismWatch::see(double time, const std::vector<Viewer
   return fresh;
 }
 
+void PrismWatch::forget() {
+  current_.clear();
+  last_.clear();
+}
+
 }  // namespace app

@@ -13,6 +13,9 @@ class PrismWatch {
   // What is found in the frame at `time` (s); returns what is new.
   std::vector<ViewerFinding> see(double time, const std::vector<ViewerFinding>& found);
 
+  // Other spectacles.
+  void forget();
+
   [[nodiscard]] const std::vector<ViewerFinding>& current() const { return current_; }
 
  private:

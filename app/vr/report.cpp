@@ -48,9 +48,10 @@ std::string counts_text(const std::map<std::string, int>& counts) {
 }
 
 std::string rungs_text(const VrReport& report) {
-  const std::string switched =
-      report.rung_switches == 1 ? "1 switch" : std::to_string(report.rung_switches) + " switches";
-  return counts_text(report.rungs) + ", " + switched + ", the last because of: " + report.rung_reason;
+  const std::string counts = counts_text(report.rungs);
+  return report.rung_switches == 0
+             ? counts
+             : counts + ", switched " + std::to_string(report.rung_switches) + " times, last as " + report.rung_reason;
 }
 
 }  // namespace

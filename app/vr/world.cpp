@@ -100,6 +100,9 @@ void VrWorld::apply(xr::Control control) {
 }
 
 void VrWorld::show(const ShownPicture& picture) {
+  if (picture.pairs != picture_.pairs) {
+    prism_.forget();
+  }
   picture_ = picture;
   wearer_.wear(picture_.pairs);
 }

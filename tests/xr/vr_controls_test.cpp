@@ -1,6 +1,7 @@
 // What the wearer's hands ask for, from the button to the picture and back from a recording, on a real Monado.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -8,9 +9,11 @@
 
 #include "app/vr/run.hpp"
 #include "render/image/png.hpp"
+#include "render/scene/scene.hpp"
 #include "tests/support/monado.hpp"
 #include "tests/support/remote_head.hpp"
 #include "tests/support/run_program.hpp"
+#include "tracking/gaze_trace.hpp"
 #include "tracking/input_error.hpp"
 
 namespace {
@@ -88,6 +91,20 @@ TEST_F(VrControls, KeysChangeThePictureAndAReplayShowsItAgain) {
   EXPECT_EQ(events, (std::vector<std::string>{"next_pair", "map", "spectacles", "clear_view", "clear_view", "recentred",
                                               "next_target", "compare", "map", "map", "map", "map"}))
       << "while the view is clear, keys for other pictures are not heeded";
+
+  // Recentred, the head is where the scene's camera stands, and faces where it does.
+  const tracking::Pose start = *render::read_gltf(VERGENCE_BUILT_ASSETS "/reading_room.glb").start_pose;
+  const std::vector<tracking::TraceRow> rows = tracking::read_gaze_trace(live.record).rows;
+  const glm::dvec3 there = rows.at(8).head.position;
+  EXPECT_NEAR(std::hypot(there.x - start.position.x, there.z - start.position.z), 0.0, 1e-9);
+  const auto heading = [](const tracking::Pose& head) {
+    const glm::dvec3 ahead = head.direction({0.0, 0.0, -1.0});
+    return std::atan2(ahead.x, -ahead.z);
+  };
+  EXPECT_NEAR(heading(rows.at(8).head), heading(start), 1e-9);
+  // The first target lies before that camera, so the eyes, which nothing tracks, go there.
+  EXPECT_EQ(rows.at(7).source, tracking::GazeSource::head);
+  EXPECT_EQ(rows.at(9).source, tracking::GazeSource::target);
 
   app::VrOptions again = live;
   again.record.clear();

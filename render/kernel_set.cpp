@@ -36,7 +36,7 @@ using vk::Binding;
 // shaders/scene_bindings.glsl, then the stage's own.
 std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding> more = {}) {
   std::vector<Binding> bindings{Binding::texel_rgba32f,  Binding::texel_rgba32ui, Binding::texel_rgba32f,
-                                Binding::texel_rgba32f,  Binding::texel_r32ui,    Binding::uniform_buffer,
+                                Binding::texel_rgba32f,  Binding::texel_r32ui,    Binding::texel_rgba32ui,
                                 Binding::uniform_buffer, Binding::texel_rgba32ui, Binding::texel_rgba32ui,
                                 Binding::texel_rgba32ui};
   bindings.insert(bindings.end(), storage_buffers, Binding::storage_buffer);
@@ -159,7 +159,8 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
     key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
     key[9] = variant.view_traits;
-    count = 10;
+    key[10] = device_.limits().on_processor ? 1U : 8U;  // columns.glsl
+    count = 11;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;

@@ -107,6 +107,10 @@ Action add_vr_command(CLI::App& program) {
                    "FILE.csv to draw from, a line a picture: a recording gives the same pictures on the same device")
       ->excludes(record);
   command->add_option("--screenshot", options->screenshot, "FILE.png of the last picture, left eye | right eye");
+  command->add_flag("--mirror", options->mirror,
+                    "Open a window on the desktop with what the headset shows, left eye | right eye. Its keys:\n"
+                    "Space spectacles on and off, N next pair, C compare, M map, T next target, R recentre,\n"
+                    "Escape clear view; Q or closing the window ends the session");
   command->add_flag("--no-text", options->no_text,
                     "Nothing to read in the headset; neither a recording nor a screenshot holds its text anyway");
   command->add_option("--device", options->device, "Checked only: the headset says which GPU it hangs on");

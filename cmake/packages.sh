@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build pkg-config git
   libvulkan-dev glslc mesa-vulkan-drivers vulkan-validationlayers
   libembree-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libstb-dev libopenexr-dev libeigen3-dev
-  libboost-dev libfreetype-dev fonts-liberation libgtest-dev assimp-testmodels libopenxr-dev
+  libboost-dev libfreetype-dev fonts-liberation libgtest-dev assimp-testmodels libopenxr-dev libglfw3-dev
   "$@"
 )
 

@@ -14,5 +14,6 @@ using lenses::f32::EyeData;
 using lenses::f32::LensData;
 #include "render/shaders/composite.h"
 #include "render/shaders/frame.h"
+#include "render/shaders/shrink.h"
 #include "render/shaders/view.h"
 }  // namespace render::gpu

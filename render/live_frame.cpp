@@ -175,7 +175,8 @@ struct LiveFrame::State {
     }
     if (plan) {
       const DrawnLayers layers{whole->buffers, fovea ? &fovea->buffers : nullptr};
-      compositor.record(picture, frame, views.size(), *composite_upload, layers, whole->buffers.radiance, *composed);
+      // No radiance is wanted: what is bound in its place may be anything that the kernel does not read.
+      compositor.record(picture, frame, views.size(), *composite_upload, layers, *composed, *composed);
     }
   }
 
@@ -286,6 +287,17 @@ void LiveFrame::start(const lenses::LensModel& lenses, const std::vector<ViewSet
 
 std::vector<vk::StageTime> LiveFrame::wait() {
   return summed(state_->submission.wait());
+}
+
+ShownPictures LiveFrame::shown() const {
+  ShownPictures shown{.eyes = {},
+                      .width = state_->config.frame.width,
+                      .height = state_->config.frame.height,
+                      .blue_first = state_->config.blue_first};
+  for (std::size_t eye = 0; eye < state_->config.eyes; ++eye) {
+    shown.eyes.push_back(state_->blocks_of(eye));
+  }
+  return shown;
 }
 
 Image8 LiveFrame::read_picture(std::size_t eye) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "render/mirror_copy.hpp"
 #include "render/renderer.hpp"
 #include "render/vk/external.hpp"
 
@@ -41,6 +42,10 @@ class LiveFrame {
              std::span<const std::uint32_t> images);
   // Until the frame is done; the device's times of its stages.
   std::vector<vk::StageTime> wait();
+
+  // Where what all eyes are shown lies while this lives: of the frame submitted last once it is done, until the next is
+  // submitted.
+  [[nodiscard]] ShownPictures shown() const;
 
   // What an eye was shown last.
   [[nodiscard]] Image8 read_picture(std::size_t eye);

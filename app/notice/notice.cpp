@@ -31,19 +31,17 @@ Source source_of(const std::string& name) {
   return found != kSources.end() ? *found : Source{name.c_str(), name.c_str(), name.c_str()};
 }
 
-std::string pairs_text(const NoticeContent& content) {
-  return content.pairs.empty()       ? "no spectacles"
-         : content.pairs.size() == 1 ? content.pairs[0]
-                                     : "A " + content.pairs[0] + kDot + "B " + content.pairs[1];
-}
+// The label of one pair alone, and of A and B.
+using PairLabels = std::array<const char*, 3>;
 
-void add_pairs(std::vector<PlateLine>& lines, const NoticeContent& content) {
-  if (content.pairs.size() < 2) {
-    lines.push_back({"Pair", pairs_text(content)});
-    return;
+std::vector<PlateLine> pair_lines(const NoticeContent& content, const PairLabels& labels) {
+  if (content.pairs.empty()) {
+    return {{labels[0], "no spectacles"}};
   }
-  lines.push_back({"Left of line", "A: " + content.pairs[0]});
-  lines.push_back({"Right of line", "B: " + content.pairs[1]});
+  if (content.pairs.size() == 1) {
+    return {{labels[0], content.pairs[0]}};
+  }
+  return {{labels[1], content.pairs[0]}, {labels[2], content.pairs[1]}};
 }
 
 std::size_t letters(const std::vector<PlateLine>& lines) {
@@ -61,8 +59,7 @@ std::string gaze_source_text(const std::string& source) {
 }
 
 std::vector<PlateLine> Notice::whole(const NoticeContent& content) const {
-  std::vector<PlateLine> lines;
-  add_pairs(lines, content);
+  std::vector<PlateLine> lines = pair_lines(content, {"Pair", "A, left", "B, right"});
   lines.push_back({"Gaze", gaze_source_text(source_)});
   for (const auto& [label, text] : {std::pair<const char*, const std::string&>{"Accuracy", content.rung},
                                     {"Map", content.map},
@@ -85,7 +82,9 @@ std::vector<PlateLine> Notice::brief(const NoticeContent& content) const {
   if (!content.rung.empty()) {
     source += kDot + content.rung;
   }
-  return {{.text = pairs_text(content)}, {.text = std::move(source), .kind = Kind::quiet}};
+  std::vector<PlateLine> lines = pair_lines(content, {"", "A", "B"});
+  lines.push_back({.text = std::move(source), .kind = Kind::quiet});
+  return lines;
 }
 
 void Notice::see_source(double time, const std::string& source) {

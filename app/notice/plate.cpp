@@ -14,6 +14,7 @@ using Kind = PlateLine::Kind;
 
 // In heights of the letter x.
 constexpr double kLineStep = 2.5, kMargin = 1.6, kColumnGap = 1.5, kBeforeHeading = 0.8, kCorner = 1.4;
+constexpr int kBorder = PlatePicture::kBorder;
 constexpr double kAscent = 1.45;  // from a line's top to its base line: capitals, and room for their accents
 
 struct Ink {
@@ -63,36 +64,30 @@ void draw_glyph(PlatePicture& picture, const GlyphPicture& glyph, int x, int y, 
   }
 }
 
+// width, height: of the plate within its border.
 PlatePicture ground(int width, int height, double corner, double opacity) {
-  PlatePicture picture{.width = width, .height = height};
+  PlatePicture picture{.width = width + 2 * kBorder, .height = height + 2 * kBorder};
+  picture.rgba.resize(4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
   const Pixel plate = pixel(kGround, opacity, 0.0);
-  picture.rgba.reserve(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int i = 0; i < width * height; ++i) {
-    picture.rgba.insert(picture.rgba.end(), plate.begin(), plate.end());
+  std::vector<std::uint8_t> row;
+  for (int x = 0; x < width; ++x) {
+    row.insert(row.end(), plate.begin(), plate.end());
+  }
+  for (int y = kBorder; y < kBorder + height; ++y) {
+    std::ranges::copy(row, picture.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * picture.width + kBorder));
   }
   const int size = static_cast<int>(std::ceil(corner));
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const double outside = std::hypot(corner - x - 0.5, corner - y - 0.5) - corner;
-      const double inside = std::clamp(0.5 - outside, 0.0, 1.0);
-      const Pixel edge = pixel(kGround, inside * opacity, 0.0);
-      for (const int px : {x, width - 1 - x}) {
-        set(picture, px, y, edge);
-        set(picture, px, height - 1 - y, edge);
+      if (outside > -0.5) {
+        const Pixel edge = pixel(kGround, std::clamp(0.5 - outside, 0.0, 1.0) * opacity, 0.0);
+        for (const int px : {kBorder + x, kBorder + width - 1 - x}) {
+          set(picture, px, kBorder + y, edge);
+          set(picture, px, kBorder + height - 1 - y, edge);
+        }
       }
     }
-  }
-  return picture;
-}
-
-PlatePicture with_border(const PlatePicture& inner) {
-  constexpr int kBorder = PlatePicture::kBorder;
-  PlatePicture picture{.width = inner.width + 2 * kBorder, .height = inner.height + 2 * kBorder};
-  picture.rgba.resize(4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(inner.width);
-  for (int y = 0; y < inner.height; ++y) {
-    std::copy_n(inner.rgba.begin() + y * row, row,
-                picture.rgba.begin() + 4 * ((y + kBorder) * static_cast<std::ptrdiff_t>(picture.width) + kBorder));
   }
   return picture;
 }
@@ -174,7 +169,7 @@ std::vector<Plate::Row> Plate::laid_out(const std::vector<PlateLine>& lines) con
       rows.push_back({margin, top, drawn_characters(line.label), line.kind, true});
     }
     for (std::u32string& text :
-         broken(line.text, font_of(line.kind), config_.most_width - 2 * PlatePicture::kBorder - margin - left)) {
+         broken(line.text, font_of(line.kind), config_.most_width - 2 * kBorder - margin - left)) {
       rows.push_back({left, top, std::move(text), line.kind, false});
       top += kLineStep * x;
     }
@@ -191,9 +186,9 @@ PlatePicture Plate::draw(const std::vector<PlateLine>& lines) const {
     right = std::max(right, row.x + font_of(row.kind).width(row.text));
     bottom = std::max(bottom, row.top + kLineStep * x);
   }
-  constexpr int kBorders = 2 * PlatePicture::kBorder;
-  const int width = std::min(config_.most_width - kBorders, static_cast<int>(std::ceil(right + margin)));
-  const int height = std::min(config_.most_height - kBorders, static_cast<int>(std::ceil(bottom + margin - 0.9 * x)));
+  const int width = std::min(config_.most_width - 2 * kBorder, static_cast<int>(std::ceil(right + margin)));
+  const int height =
+      std::min(config_.most_height - 2 * kBorder, static_cast<int>(std::ceil(bottom + margin - 0.9 * x)));
   PlatePicture picture = ground(width, height, kCorner * x, config_.opacity);
   for (const Row& row : rows) {
     const Kind kind = row.is_label && row.kind == Kind::plain ? Kind::quiet : row.kind;
@@ -202,12 +197,12 @@ PlatePicture Plate::draw(const std::vector<PlateLine>& lines) const {
     double pen = row.x;
     for (const char32_t character : row.text) {
       const GlyphPicture& glyph = font.glyph(character);
-      draw_glyph(picture, glyph, static_cast<int>(std::lround(pen)),
-                 static_cast<int>(std::lround(row.top + kAscent * x)), ramp);
+      draw_glyph(picture, glyph, kBorder + static_cast<int>(std::lround(pen)),
+                 kBorder + static_cast<int>(std::lround(row.top + kAscent * x)), ramp);
       pen += glyph.advance;
     }
   }
-  return with_border(picture);
+  return picture;
 }
 
 }  // namespace app

@@ -34,7 +34,7 @@ double processor_ms() {
 
 }  // namespace
 
-VrConnection::VrConnection(VrWorld& world, ControlSource more_controls)
+VrConnection::VrConnection(VrWorld& world, ControlSource more_controls, MirrorLink* mirror)
     : world_(world),
       more_controls_(std::move(more_controls)),
       instance_({.wanted_extensions = wanted_extensions()}),
@@ -56,6 +56,9 @@ VrConnection::VrConnection(VrWorld& world, ControlSource more_controls)
     text_.emplace(device_, session_, loop_);
   }
   describe();
+  if (mirror != nullptr) {
+    mirror_.emplace(*mirror, device_, std::array{world_.report().width, world_.report().height});
+  }
   world_.begin_recording(device_.name(), {world_.report().width, world_.report().height});
   const xr::GazeSupport gaze = gaze_actions_.support();
   world_.choose_rungs(gaze.per_eye || gaze.combined);
@@ -156,7 +159,7 @@ void VrConnection::prepare_pictures(const xr::Frame& frame) {
     pictures_->make({first, rung}, world_.wearer().wearing(first.pairs));
   }
   world_.report().guard_px = pictures_->guard_px({first, world_.rung()}).value_or(0);
-  prepared_ = true;
+  kernels_prepared_ = renderer_.kernels_made();
 }
 
 void VrConnection::wait_for_device() {
@@ -188,7 +191,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
   world_.rungs().see_period(xr::seconds(frame.period));
   place(frame, time);
   mark("place");
-  const bool is_first = !prepared_;
+  const bool is_first = !kernels_prepared_;
   if (is_first) {
     prepare_pictures(frame);
     last = Clock::now();
@@ -210,7 +213,7 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     panels.push_back(&text_->panel());
   }
   mark("text");
-  pictures_->start(key, world_.wearer().setup(), images);
+  pictures_->start(key, world_.setup(), images);
   mark("submit");
   const double to_submit = since(frame.woken);
   loop_.show(frame, panels);
@@ -221,10 +224,15 @@ void VrConnection::show(const xr::Frame& frame, double time) {
     report.frame_code.add(processor);
   }
   ++report.shown;
+  if (mirror_) {
+    mirror_->after_frame(pictures_->shown());
+    mark("mirror");
+  }
 }
 
 void VrConnection::finish() {
   wait_for_device();
+  world_.report().kernels_late += renderer_.kernels_made() - kernels_prepared_.value_or(renderer_.kernels_made());
   if (!world_.options().screenshot.empty()) {
     if (const auto picture = pictures_->read_picture()) {
       render::write_png(world_.options().screenshot, *picture);

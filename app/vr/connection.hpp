@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/vr/headset_text.hpp"
+#include "app/vr/mirror_feed.hpp"
 #include "app/vr/pictures.hpp"
 #include "app/vr/world.hpp"
 #include "xr/actions.hpp"
@@ -20,9 +21,10 @@ using ControlSource = std::function<std::vector<xr::Control>()>;
 
 class VrConnection {
  public:
-  // Throws xr::Error and render::vk::DeviceError for what fails here. Refers to the world.
-  // more_controls: asked once a frame for what was pressed elsewhere than on the headset's controllers; may be empty.
-  explicit VrConnection(VrWorld& world, ControlSource more_controls = {});
+  // Throws xr::Error and render::vk::DeviceError for what fails here. Refers to the world and to the mirror, if there
+  // is one. more_controls: asked once a frame for what was pressed elsewhere than on the headset's controllers; may be
+  // empty.
+  explicit VrConnection(VrWorld& world, ControlSource more_controls = {}, MirrorLink* mirror = nullptr);
 
   // Until the session ends; xr::LostError where it is lost.
   void show_frames();
@@ -56,8 +58,9 @@ class VrConnection {
   tracking::Pose world_from_space_;
   std::optional<Pictures> pictures_;  // once the rungs are known
   std::optional<HeadsetText> text_;   // with --no-text there is none
-  bool prepared_ = false;
-  double processor_before_ = 0.0;  // ms of this thread, before the frame was waited for
+  std::optional<MirrorFeed> mirror_;
+  std::optional<std::size_t> kernels_prepared_;  // once the pictures are
+  double processor_before_ = 0.0;                // ms of this thread, before the frame was waited for
   bool exit_requested_ = false;
 };
 

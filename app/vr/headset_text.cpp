@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/mode_option.hpp"
 #include "app/notice/panel_place.hpp"
 #include "app/option_values.hpp"
 #include "lenses/pupil.hpp"
@@ -45,16 +44,14 @@ DisplayLimits display_limits(const RenderSetup& setup, bool has_headset_file, co
 
 NoticeContent notice_content(const VrWorld& world, const std::vector<PlateLine>& limits) {
   NoticeContent content;
-  for (const WornPair& pair : world.wearer().setup().pairs) {
+  for (const WornPair& pair : world.setup().pairs) {
     content.pairs.push_back(world.is_clear() ? "clear view" : pair.name);
   }
   content.gaze_source = world.gaze_source();
   content.target = world.target_name();
   content.rung = world.rung_name();
-  if (const render::Mode mode = world.picture().mode; render::is_map(mode)) {
-    content.map = mode_names()[static_cast<std::size_t>(mode)];
-  }
-  for (const ViewerFinding& found : world.report().findings) {
+  content.map = world.map_name();
+  for (const ViewerFinding& found : world.warnings()) {
     content.warnings.push_back((found.pair.empty() ? "" : found.pair + ": ") + found.finding.message);
   }
   content.limits = limits;
@@ -67,7 +64,7 @@ HeadsetText::HeadsetText(const render::vk::Device& device, const xr::Session& se
       text_(device, session, loop.view_space(), plate_config()) {}
 
 void HeadsetText::see_display(const VrWorld& world, const xr::Frame& frame) {
-  const RenderSetup& setup = world.wearer().setup();
+  const RenderSetup& setup = world.setup();
   const bool has_file = !world.options().scene.headset.empty();
   const tracking::FieldOfView& fov = frame.views[0].fov;
   limits_ = limit_lines(display_limits(setup, has_file, fov, loop_.swapchain(Side::right).width(), display_width_));

@@ -22,6 +22,7 @@ struct VrOptions {
   std::string screenshot;
   std::string record, replay;  // FILE.csv
   std::optional<int> frames;
+  bool mirror = false;
   bool no_text = false;       // nothing to read in the headset
   double reconnect_s = 10.0;  // how long a lost runtime is waited for
   bool json = false;

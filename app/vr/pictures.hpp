@@ -54,6 +54,9 @@ class Pictures {
   // What was shown last: left eye | right eye. Nothing where there was no picture.
   [[nodiscard]] std::optional<render::Image8> read_picture();
 
+  // Where it lies while it is under way and after, until the next is started. Something must have been shown.
+  [[nodiscard]] render::ShownPictures shown() const { return made_.front().frame->shown(); }
+
   [[nodiscard]] std::optional<int> guard_px(const PictureKey& key) const;
 
  private:

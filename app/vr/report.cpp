@@ -122,6 +122,7 @@ std::string to_json(const VrReport& report) {
                                     {"rung_frames", report.rungs},
                                     {"rung_switches", report.rung_switches},
                                     {"rung_reason", report.rung_reason},
+                                    {"kernels_late", report.kernels_late},
                                     {"findings", to_json_array(report.findings)},
                                     {"frames_shown", report.shown},
                                     {"frames_skipped", report.skipped},

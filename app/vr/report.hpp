@@ -37,6 +37,7 @@ struct VrReport {
   int rung_switches = 0;
   std::string rung_reason;                             // of the last
   std::vector<ViewerFinding> findings;                 // what the person inside should know
+  std::size_t kernels_late = 0;                        // compiled after the first picture, while somebody waited
   int shown = 0, skipped = 0;                          // frames with a picture and without
   std::vector<std::pair<std::string, TimeRing>> host;  // parts of a frame on this side, in order
   std::vector<std::pair<std::string, TimeRing>> device_stages;

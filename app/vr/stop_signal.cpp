@@ -1,16 +1,19 @@
 #include "app/vr/stop_signal.hpp"
 
+#include <atomic>
+
 namespace app {
 namespace {
 
-volatile std::sig_atomic_t g_stop = 0;
+std::atomic<bool> g_stop = false;  // the signal's thread need not be the session's
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not take a lock");
 
 }  // namespace
 
 StopOnSignal::StopOnSignal() {
-  g_stop = 0;
+  g_stop = false;
   struct sigaction action {};
-  action.sa_handler = [](int) { g_stop = 1; };
+  action.sa_handler = [](int) { g_stop = true; };
   ::sigaction(SIGINT, &action, &old_[0]);
   ::sigaction(SIGTERM, &action, &old_[1]);
 }
@@ -21,7 +24,11 @@ StopOnSignal::~StopOnSignal() {
 }
 
 bool StopOnSignal::wanted() {
-  return g_stop != 0;
+  return g_stop;
+}
+
+void StopOnSignal::stop() {
+  g_stop = true;
 }
 
 }  // namespace app

@@ -16,6 +16,8 @@ class StopOnSignal {
 
   // Whether one came since the object was made.
   [[nodiscard]] static bool wanted();
+  // As if one came; from any thread.
+  static void stop();
 
  private:
   std::array<struct sigaction, 2> old_{};

@@ -1,5 +1,6 @@
 #include "app/vr/world.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iostream>
@@ -78,16 +79,6 @@ void VrWorld::runtime_returned() {
   ++report_.reconnections;
 }
 
-void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double period) {
-  if (replay_) {
-    return;  // that head was another day's
-  }
-  reprojection_.see(time, where.world_from_head);
-  const double error = reprojection_.error(wearer_.setup().lenses, wearer_.setup().pairs, wearer_.state().gaze, period);
-  report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
-  report_.reprojection_error.add(glm::degrees(error) * 60.0);
-}
-
 void VrWorld::choose_rungs(bool tracks_gaze) {
   if (!rungs_) {
     rungs_ = rung_choice(options_, replay_, tracks_gaze);
@@ -129,18 +120,32 @@ void VrWorld::place(double time, const HeadAndViews& now, std::optional<tracking
     replay_place(now);
     return;
   }
-  const HeadAndViews where = steadied(now, wearer_.views());
   if (sample && sample->time) {
     *sample->time += session_from_runtime_;
   }
+  const HeadAndViews where = steadied(now, wearer_.views());
   show(shown_.picture());
   const auto& target = shown_.target();
   wearer_.step(time, where, sample, target ? std::optional(scene_.targets[*target].position) : std::nullopt);
+  if (views_apart_ && picture_.pairs != warned_of_) {
+    find_warnings();
+  }
   if (recorder_) {
     recorder_->frame(trace_row(time, where, wearer_, sample && sample->valid), recorded_views(where), rung_name(),
                      pair_name(), recorded_picture(picture_));
   }
-  count_picture(source_text());
+  const bool at_target = wearer_.source() == tracking::GazeSource::target;
+  count_picture(gaze_source() + (at_target ? " " + target_name() : ""));
+}
+
+void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double period) {
+  if (replay_) {
+    return;  // that head was another day's
+  }
+  reprojection_.see(time, where.world_from_head);
+  const double error = reprojection_.error(setup().lenses, setup().pairs, wearer_.state().gaze, period);
+  report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
+  report_.reprojection_error.add(glm::degrees(error) * 60.0);
 }
 
 void VrWorld::replay_place(const HeadAndViews& now) {
@@ -169,20 +174,14 @@ std::string VrWorld::pair_name() const {
 }
 
 std::string VrWorld::picture_text() const {
-  if (picture_.mode == shown_.base()) {
-    return pair_name();
+  if (const std::string map = map_name(); !map.empty()) {
+    return pair_name() + ", " + map + " map";
   }
-  const bool map = render::is_map(picture_.mode);
-  return pair_name() + ", " + mode_names()[static_cast<std::size_t>(picture_.mode)] + (map ? " map" : "");
+  return pair_name() + (picture_.mode == shown_.base() ? "" : ", clear view");
 }
 
-std::string VrWorld::source_text() const {
-  const tracking::GazeSource source = wearer_.source();
-  std::string text = tracking::name(source);
-  if (source == tracking::GazeSource::target) {
-    text += " " + target_name();
-  }
-  return text;
+std::string VrWorld::map_name() const {
+  return render::is_map(picture_.mode) ? mode_names()[static_cast<std::size_t>(picture_.mode)] : "";
 }
 
 std::string VrWorld::target_name() const {
@@ -190,16 +189,39 @@ std::string VrWorld::target_name() const {
 }
 
 void VrWorld::warn(double views_apart) {
+  views_apart_ = views_apart;
+  find_warnings();
+}
+
+void VrWorld::find_warnings() {
   const RenderSetup& setup = wearer_.setup();
-  report_.findings = viewer_report(setup);
+  const bool is_first = warned_of_.empty();
+  warned_of_ = picture_.pairs;
+  warnings_ = viewer_report(setup);
   std::array<double, 2> power{};
   for (const std::size_t i : {0U, 1U}) {
     power[i] = horizontal_power(lenses::f64::Table{setup.lenses.table}, setup.pairs.front().eyes[i]);
   }
-  if (const auto finding = lenses::distance_finding(setup.wearer, views_apart, power)) {
-    report_.findings.push_back({"", *finding});
+  if (const auto finding = lenses::distance_finding(setup.wearer, *views_apart_, power)) {
+    warnings_.push_back({"", *finding});
   }
-  std::cerr << to_table(report_.findings);
+  if (!is_first) {  // the first pair is the one that the session was started with
+    for (ViewerFinding& warning : warnings_) {
+      const bool of_pair = warning.finding.code == "vertical_prism" || warning.finding.code == "pupillary_distance";
+      warning.pair = of_pair && warning.pair.empty() ? setup.pairs.front().name : warning.pair;
+    }
+  }
+  std::vector<ViewerFinding> news;
+  for (const ViewerFinding& warning : warnings_) {
+    const auto is_same = [&](const ViewerFinding& told) {
+      return told.pair == warning.pair && told.finding.message == warning.finding.message;
+    };
+    if (std::ranges::none_of(report_.findings, is_same)) {
+      news.push_back(warning);
+    }
+  }
+  report_.findings.insert(report_.findings.end(), news.begin(), news.end());
+  std::cerr << to_table(news);
 }
 
 }  // namespace app

@@ -30,8 +30,15 @@ class VrWorld {
   [[nodiscard]] VrReport& report() { return report_; }
   [[nodiscard]] const VrReport& report() const { return report_; }
 
-  // Of the picture placed last: as tracking::name has it, or "replay".
+  // With the pairs worn.
+  [[nodiscard]] const RenderSetup& setup() const { return wearer_.setup(); }
+
+  // Of the picture placed last: where its gaze comes from, as tracking::name has it, or "replay"; the name of the rung
+  // it is drawn at; the map that lies over it and the target that was chosen, empty for none.
   [[nodiscard]] std::string gaze_source() const { return replay_ ? "replay" : tracking::name(wearer_.source()); }
+  [[nodiscard]] std::string rung_name() const { return rungs_->rungs()[rung()].name; }
+  [[nodiscard]] std::string map_name() const;
+  [[nodiscard]] std::string target_name() const;
 
   // As many pictures as were asked for have been shown.
   [[nodiscard]] bool is_finished() const;
@@ -63,17 +70,16 @@ class VrWorld {
   // How fast the head turns, and what reprojection by a frame's period (s) then gets wrong: into the report.
   void watch_reprojection(double time, const HeadAndViews& where, double period);
 
-  // What the person inside should know, before the first picture and again in the report. views_apart: m, between the
-  // headset's two views, as its lenses stand; the wearer's spectacles stand as the wearer's pupils would.
+  // What the person inside should know, before the first picture, with every other pair that is put on, and again in
+  // the report. views_apart: m, between the headset's two views, as its lenses stand; the wearer's spectacles stand as
+  // the wearer's pupils would.
   void warn(double views_apart);
-  // Of the picture placed last, for the person inside. rung_name: once the rungs are chosen. target_name: of what the
-  // wearer chose to look at; empty: nothing.
-  [[nodiscard]] const std::string& rung_name() const { return rungs_->rungs()[rung()].name; }
-  [[nodiscard]] std::string target_name() const;
+  // Of the pairs worn.
+  [[nodiscard]] const std::vector<ViewerFinding>& warnings() const { return warnings_; }
   [[nodiscard]] bool is_clear() const { return shown_.is_clear(); }
 
-  // From a runtime's time (s) to the session's, which is the first runtime's and goes on where another begins anew. To
-  // be asked for every frame; a frame without a time (0) has that of the last.
+  // From a runtime's time (s) to the session's, which is the first runtime's and goes on where another begins anew.
+  // To be asked for every frame; a frame without a time (0) has that of the last.
   [[nodiscard]] double session_time(double runtime_time);
   // The next frame's time is another runtime's.
   void runtime_returned();
@@ -81,10 +87,10 @@ class VrWorld {
  private:
   void replay_place(const HeadAndViews& now);
   void show(const ShownPicture& picture);
+  void find_warnings();
   void count_picture(const std::string& source);
   [[nodiscard]] std::string pair_name() const;
   [[nodiscard]] std::string picture_text() const;
-  [[nodiscard]] std::string source_text() const;
 
   const VrOptions& options_;
   std::optional<SessionReplay> replay_;
@@ -96,6 +102,9 @@ class VrWorld {
   std::optional<SessionRecorder> recorder_;
   ReprojectionWatch reprojection_;
   VrReport report_;
+  std::optional<double> views_apart_;   // m; nothing before the first picture
+  std::vector<std::size_t> warned_of_;  // the pairs of the warnings
+  std::vector<ViewerFinding> warnings_;
   double last_time_ = 0.0;                            // s, of the last frame
   std::chrono::steady_clock::time_point last_frame_;  // when that was
   double session_from_runtime_ = 0.0;                 // s, added to a runtime's time

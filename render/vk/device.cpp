@@ -84,21 +84,30 @@ FeatureChain features_to_enable(const raii::PhysicalDevice& physical, bool ray_q
   return wanted;
 }
 
+std::vector<const char*> extensions_to_enable(bool ray_query, bool swapchain) {
+  std::vector<const char*> names;
+  if (ray_query) names.assign(kRayQueryExtensions.begin(), kRayQueryExtensions.end());
+  if (swapchain) names.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  return names;
+}
+
 raii::Device create_device(const raii::PhysicalDevice& physical, std::uint32_t queue_family,
-                           const FeatureChain& features, bool ray_query, const Instance& instance,
-                           const DeviceMaker* maker) {
+                           const FeatureChain& features, const std::vector<const char*>& extensions,
+                           const Instance& instance, const DeviceMaker* maker) {
   const float priority = 1.0F;
   const ::vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
   ::vk::DeviceCreateInfo info({}, queue);
   info.setPNext(&features.get<::vk::PhysicalDeviceFeatures2>());
-  if (ray_query) info.setPEnabledExtensionNames(kRayQueryExtensions);
+  info.setPEnabledExtensionNames(extensions);
   if (maker == nullptr) return {physical, info};
   const VkDeviceCreateInfo& plain = info;
   return {physical, maker->make_device(*physical, plain, instance.context.getDispatcher()->vkGetInstanceProcAddr)};
 }
 
 // A maker's own work on the queue may be drawing.
-std::uint32_t choose_queue_family(const raii::PhysicalDevice& physical, const DeviceMaker* maker) {
+std::uint32_t choose_queue_family(const raii::PhysicalDevice& physical, const DeviceMaker* maker,
+                                  const raii::SurfaceKHR& surface) {
+  if (*surface) return showing_queue_family(physical, surface);
   if (maker != nullptr) {
     const auto family = queue_family_with(physical, ::vk::QueueFlagBits::eCompute | ::vk::QueueFlagBits::eGraphics);
     if (family != VK_QUEUE_FAMILY_IGNORED) return family;
@@ -111,14 +120,28 @@ DriverId driver_id(const raii::PhysicalDevice& physical) {
   return {properties.vendorID, properties.deviceID, properties.pipelineCacheUUID};
 }
 
+raii::PhysicalDevice choose_device(const Instance& instance, const DeviceMaker* maker, const raii::SurfaceKHR& surface,
+                                   const std::string& wanted) {
+  if (maker != nullptr) return given_device(instance, *maker, wanted);
+  const auto usable = usable_devices(instance);
+  return *surface ? pick_showing_device(usable, wanted, surface) : pick_device(usable, wanted);
+}
+
 }  // namespace
 
-DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(wanted.validation, wanted.maker) {
+DeviceState::DeviceState(const DeviceConfig& wanted)
+    : config(wanted),
+      instance(wanted.validation, wanted.maker,
+               wanted.window != nullptr ? wanted.window->instance_extensions : std::vector<std::string>{}) {
   const DeviceMaker* const maker = std::exchange(config.maker, nullptr);
-  physical = maker != nullptr ? given_device(instance, *maker, config.device)
-                              : pick_device(usable_devices(instance), config.device);
+  const WindowBinding* const window = std::exchange(config.window, nullptr);
+  if (maker != nullptr && window != nullptr) {
+    throw std::invalid_argument("a device that is made in our place shows no window");
+  }
+  if (window != nullptr) surface = {instance.instance, window->make_surface(*instance.instance)};
+  physical = choose_device(instance, maker, surface, config.device);
   name = physical.getProperties().deviceName.data();
-  queue_family = choose_queue_family(physical, maker);
+  queue_family = choose_queue_family(physical, maker, surface);
   const auto family = physical.getQueueFamilyProperties()[queue_family];
   const std::uint32_t bits = family.timestampValidBits;
   timestamp_mask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
@@ -127,7 +150,8 @@ DeviceState::DeviceState(const DeviceConfig& wanted) : config(wanted), instance(
     const FeatureChain features = features_to_enable(physical, ray_query);
     limits = limits_of(physical, family, bool(features.get<::vk::PhysicalDeviceFeatures2>().features.shaderFloat64));
     limits.has_ray_query = ray_query;
-    device = create_device(physical, queue_family, features, ray_query, instance, maker);
+    device = create_device(physical, queue_family, features, extensions_to_enable(ray_query, bool(*surface)), instance,
+                           maker);
     queue = device.getQueue(queue_family, 0);
     pool = {device, {::vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family}};
     std::vector<std::uint8_t> cached;

@@ -16,6 +16,7 @@ namespace render::vk {
 class Commands;
 struct DeviceState;
 struct DeviceMaker;
+struct WindowBinding;
 
 // No Vulkan loader or driver, no such device, a size beyond the device's limits, out of memory, device lost.
 class DeviceError : public std::runtime_error {
@@ -35,6 +36,9 @@ struct DeviceConfig {
   bool map_device_memory = true;
   // Makes the device in our place (external.hpp) and picks it; `device` is then only checked. Used while opening.
   const DeviceMaker* maker = nullptr;
+  // A window to show pictures in (external.hpp), not together with a maker: only a device that can is opened. Used
+  // while opening.
+  const WindowBinding* window = nullptr;
 };
 
 struct DeviceLimits {

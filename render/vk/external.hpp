@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "render/vk/buffer.hpp"
@@ -22,6 +23,13 @@ struct DeviceMaker {
   std::function<VkInstance(const VkInstanceCreateInfo&, PFN_vkGetInstanceProcAddr)> make_instance;
   std::function<VkPhysicalDevice(VkInstance)> pick_device;
   std::function<VkDevice(VkPhysicalDevice, const VkDeviceCreateInfo&, PFN_vkGetInstanceProcAddr)> make_device;
+};
+
+// A window that a device shall show pictures in (window_pictures.hpp). The surface that is made belongs to the Device,
+// so the window must outlive that.
+struct WindowBinding {
+  std::vector<std::string> instance_extensions;
+  std::function<VkSurfaceKHR(VkInstance)> make_surface;
 };
 
 struct ExternalHandles {

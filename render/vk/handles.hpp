@@ -51,7 +51,8 @@ class MessageLog {
 
 // Loader, instance and, with validation, the messenger that fills the log.
 struct Instance {
-  explicit Instance(bool validation, const DeviceMaker* maker = nullptr);
+  explicit Instance(bool validation, const DeviceMaker* maker = nullptr,
+                    const std::vector<std::string>& extensions = {});
 
   MessageLog log;  // before the instance: the messenger writes to it until the instance is gone
   raii::Context context;
@@ -64,6 +65,9 @@ struct Instance {
 [[nodiscard]] std::uint32_t compute_queue_family(const raii::PhysicalDevice& device);
 // The first of its families that has all of `flags`; VK_QUEUE_FAMILY_IGNORED without one.
 [[nodiscard]] std::uint32_t queue_family_with(const raii::PhysicalDevice& device, ::vk::QueueFlags flags);
+// The first of its families that computes, draws and shows pictures on the surface; VK_QUEUE_FAMILY_IGNORED without
+// one, or without VK_KHR_swapchain.
+[[nodiscard]] std::uint32_t showing_queue_family(const raii::PhysicalDevice& device, const raii::SurfaceKHR& surface);
 // As DeviceConfig::device says; throws DeviceError with the names of those present.
 [[nodiscard]] raii::PhysicalDevice pick_device(const std::vector<raii::PhysicalDevice>& devices,
                                                const std::string& wanted);
@@ -71,11 +75,16 @@ struct Instance {
 [[nodiscard]] raii::PhysicalDevice given_device(const Instance& instance, const DeviceMaker& maker,
                                                 const std::string& wanted);
 
+// The same for one that shows pictures on the surface; without a wish only such are considered.
+[[nodiscard]] raii::PhysicalDevice pick_showing_device(const std::vector<raii::PhysicalDevice>& devices,
+                                                       const std::string& wanted, const raii::SurfaceKHR& surface);
+
 struct DeviceState {
   explicit DeviceState(const DeviceConfig& config);
 
   DeviceConfig config;
   Instance instance;
+  raii::SurfaceKHR surface = nullptr;  // of the window that pictures are shown in, where there is one
   raii::PhysicalDevice physical = nullptr;
   std::string name;
   DeviceLimits limits;

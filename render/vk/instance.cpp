@@ -2,6 +2,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <iterator>
 
 #include "render/vk/external.hpp"
 #include "render/vk/handles.hpp"
@@ -53,14 +54,18 @@ raii::Instance make_instance(const raii::Context& context, const ::vk::InstanceC
   return {context, maker->make_instance(plain, context.getDispatcher()->vkGetInstanceProcAddr)};
 }
 
-raii::Instance create_instance(const raii::Context& context, MessageLog& log, bool validation,
-                               const DeviceMaker* maker) {
+raii::Instance create_instance(const raii::Context& context, MessageLog& log, bool validation, const DeviceMaker* maker,
+                               const std::vector<std::string>& more_extensions) {
   const ::vk::ApplicationInfo application("vergence", 1, nullptr, 0, VK_API_VERSION_1_2);
   ::vk::InstanceCreateInfo info({}, &application);
+  std::vector<const char*> extensions;
+  for (const std::string& extension : more_extensions) extensions.push_back(extension.c_str());
+  info.setPEnabledExtensionNames(extensions);
   if (!validation) return make_instance(context, info, maker);
 
   require_validation_layer(context);
-  const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
   const std::array features{::vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
   auto messenger = messenger_info(log);
   const ::vk::ValidationFeaturesEXT checks(features, {}, &messenger);
@@ -97,9 +102,10 @@ const raii::PhysicalDevice& best_of(const std::vector<raii::PhysicalDevice>& dev
 
 }  // namespace
 
-Instance::Instance(bool validation, const DeviceMaker* maker) : context(load_vulkan()) {
+Instance::Instance(bool validation, const DeviceMaker* maker, const std::vector<std::string>& extensions)
+    : context(load_vulkan()) {
   guarded("opening Vulkan", [&] {
-    instance = create_instance(context, log, validation, maker);
+    instance = create_instance(context, log, validation, maker, extensions);
     if (validation) messenger = {instance, messenger_info(log)};
   });
 }
@@ -143,6 +149,37 @@ raii::PhysicalDevice pick_device(const std::vector<raii::PhysicalDevice>& device
     if (lower_case(name_of(device)).find(lower_case(wanted)) != std::string::npos) return device;
   }
   throw_not_found(devices, wanted);
+}
+
+std::uint32_t showing_queue_family(const raii::PhysicalDevice& device, const raii::SurfaceKHR& surface) {
+  const auto extensions = device.enumerateDeviceExtensionProperties();
+  if (std::ranges::none_of(extensions, [](const auto& e) {
+        return std::string_view(e.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+      })) {
+    return VK_QUEUE_FAMILY_IGNORED;
+  }
+  constexpr auto kNeeded = ::vk::QueueFlagBits::eCompute | ::vk::QueueFlagBits::eGraphics;
+  const auto families = device.getQueueFamilyProperties();
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if ((families[i].queueFlags & kNeeded) == kNeeded && device.getSurfaceSupportKHR(i, *surface) != VK_FALSE) return i;
+  }
+  return VK_QUEUE_FAMILY_IGNORED;
+}
+
+raii::PhysicalDevice pick_showing_device(const std::vector<raii::PhysicalDevice>& devices, const std::string& wanted,
+                                         const raii::SurfaceKHR& surface) {
+  const auto shows = [&](const raii::PhysicalDevice& device) {
+    return showing_queue_family(device, surface) != VK_QUEUE_FAMILY_IGNORED;
+  };
+  if (!wanted.empty()) {
+    raii::PhysicalDevice device = pick_device(devices, wanted);
+    if (!shows(device)) throw DeviceError(name_of(device) + " cannot show pictures in a window of this display");
+    return device;
+  }
+  std::vector<raii::PhysicalDevice> showing;
+  std::ranges::copy_if(devices, std::back_inserter(showing), shows);
+  if (showing.empty()) throw DeviceError("no Vulkan device shows pictures in a window of this display");
+  return pick_device(showing, {});
 }
 
 raii::PhysicalDevice given_device(const Instance& instance, const DeviceMaker& maker, const std::string& wanted) {

@@ -67,10 +67,13 @@ class XScreen {
   XScreen(const XScreen&) = delete;
   XScreen& operator=(const XScreen&) = delete;
 
+  [[nodiscard]] xcb_connection_t* connection() const { return connection_.get(); }
+  [[nodiscard]] xcb_window_t root() const {
+    return xcb_setup_roots_iterator(xcb_get_setup(connection_.get())).data->root;
+  }
+
   [[nodiscard]] render::Image8 screenshot() const {
-    const xcb_screen_t* screen = xcb_setup_roots_iterator(xcb_get_setup(connection_.get())).data;
-    const auto cookie =
-        xcb_get_image(connection_.get(), XCB_IMAGE_FORMAT_Z_PIXMAP, screen->root, 0, 0, kWidth, kHeight, ~0U);
+    const auto cookie = xcb_get_image(connection_.get(), XCB_IMAGE_FORMAT_Z_PIXMAP, root(), 0, 0, kWidth, kHeight, ~0U);
     const std::unique_ptr<xcb_get_image_reply_t, decltype(&std::free)> reply(
         xcb_get_image_reply(connection_.get(), cookie, nullptr), &std::free);
     if (!reply || xcb_get_image_data_length(reply.get()) != 4 * kWidth * kHeight) {

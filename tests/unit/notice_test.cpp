@@ -65,7 +65,19 @@ TEST(Notice, AChangeBringsTheWholeBackWithoutTheLimits) {
   content.pairs = {"no spectacles"};
   EXPECT_EQ(change(500.0, "Pair"), "no spectacles");
   content.pairs = {"bifocal", "progressive"};
-  EXPECT_EQ(change(600.0, "Right of line"), "B: progressive");
+  EXPECT_EQ(change(600.0, "B, right"), "progressive");
+}
+
+TEST(Notice, NamesBothPairsInBriefToo) {
+  Notice notice;
+  NoticeContent content = reading();
+  content.pairs = {"bifocal", "progressive"};
+  ASSERT_TRUE(notice.step(0.0, content));
+  const auto brief = notice.step(30.0, content);
+  ASSERT_TRUE(brief);
+  EXPECT_EQ(text_of(*brief, "A"), "bifocal");
+  EXPECT_EQ(text_of(*brief, "B"), "progressive");
+  EXPECT_EQ(brief->size(), 3U);
 }
 
 TEST(Notice, AnotherSourceOrRungShowsInWhatAlwaysStays) {

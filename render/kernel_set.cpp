@@ -44,6 +44,8 @@ std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding>
   return bindings;
 }
 
+constexpr std::size_t kColumnsAt = 11;  // shaders/columns.glsl; 10 is free
+
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
@@ -159,8 +161,8 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
     key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
     key[9] = variant.view_traits;
-    key[10] = device_.limits().on_processor ? 1U : 8U;  // columns.glsl
-    count = 11;
+    key[kColumnsAt] = device_.limits().on_processor ? 1U : 8U;
+    count = kColumnsAt + 1;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;

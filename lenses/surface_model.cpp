@@ -109,8 +109,8 @@ void append_lookup(f64::SurfaceData& s, const Cells& u, const Cells& v, std::vec
         const glm::dvec2 local(static_cast<double>(k % (kPerCell + 1)) / kPerCell,
                                static_cast<double>(k / (kPerCell + 1)) / kPerCell);
         const int at = s.offset.x + 12 * to_int(i * v.count() + j);
-        const f64::CellValue x = f64::cell_value(f64::Table{table}, at, local.x, local.y);
-        const f64::CellValue y = f64::cell_value(f64::Table{table}, at + 4, local.x, local.y);
+        const f64::CellValue x = f64::cell_value(f64::cell_at(f64::Table{table}, at), local.x, local.y);
+        const f64::CellValue y = f64::cell_value(f64::cell_at(f64::Table{table}, at + 4), local.x, local.y);
         if (!(x.d.x * y.d.y - x.d.y * y.d.x > 0.0)) {
           throw std::invalid_argument("the patch folds over: d(x, y)/d(u, v) must be positive everywhere");
         }

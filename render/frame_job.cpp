@@ -23,6 +23,8 @@ static_assert(gpu::kModePinhole == static_cast<int>(Mode::pinhole) && gpu::kMode
               gpu::kModeAccommodation == static_cast<int>(Mode::accommodation) &&
               gpu::kModeBlur == static_cast<int>(Mode::blur));
 
+static_assert(sizeof(gpu::ViewData) == gpu::kViewTexels * sizeof(glm::vec4));  // view_words.glsl
+
 constexpr std::uint32_t kGroup = 8;  // local size of the frame's kernels
 // What a bare picture keeps of a scene: where faces are, and their base colour.
 constexpr auto kBareFeatures =
@@ -38,7 +40,7 @@ std::vector<gpu::ViewData> view_data(const lenses::LensModel& lenses, const std:
   for (const ViewSetup& view : views) {
     data.push_back(make_view_data(view, lenses));
   }
-  data.resize(gpu::kMostViews);  // a uniform buffer has its full size
+  data.resize(gpu::kMostViews);  // as many as a live frame hands over
   return data;
 }
 

@@ -1,5 +1,6 @@
 #include "render/kernel_set.hpp"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,13 +39,15 @@ using vk::Binding;
 // shaders/scene_bindings.glsl, then the stage's own.
 std::vector<Binding> scene_and(std::size_t storage_buffers, std::vector<Binding> more = {}) {
   std::vector<Binding> bindings{Binding::texel_rgba32f,  Binding::texel_rgba32ui, Binding::texel_rgba32f,
-                                Binding::texel_rgba32f,  Binding::texel_r32ui,    Binding::uniform_buffer,
+                                Binding::texel_rgba32f,  Binding::texel_r32ui,    Binding::texel_rgba32ui,
                                 Binding::uniform_buffer, Binding::texel_rgba32ui, Binding::texel_rgba32ui,
                                 Binding::texel_rgba32ui};
   bindings.insert(bindings.end(), storage_buffers, Binding::storage_buffer);
   bindings.insert(bindings.end(), more.begin(), more.end());
   return bindings;
 }
+
+constexpr std::size_t kColumnsAt = 11;  // shaders/columns.glsl
 
 // Which specialisation constants a stage has; the numbers of the first are those of TraceVariant's members.
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
@@ -185,7 +188,8 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[6] = keeps && (passes_rays_on || stage == Stage::found) ? 1U : 0U;
     key[7] = stage == Stage::found && !variant.hits_known ? 1U : 0U;
     key[9] = variant.view_traits;
-    count = 10;
+    key[kColumnsAt] = device_.limits().on_processor ? 1U : 8U;
+    count = kColumnsAt + 1;
   }
   if (recipe.constants == Constants::chief) {
     key[2] = variant.wavefront ? 1U : 0U;
@@ -199,7 +203,7 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   }
   if (variant.listed_tiles && goes_by_tiles(stage)) {
     key[kListedTilesAt] = 1U;
-    count = kListedTilesAt + 1;
+    count = std::max(count, kListedTilesAt + 1);
   }
   return get(stage, key, count);
 }

@@ -76,7 +76,7 @@ class KernelSet {
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
-  using Key = std::array<std::uint32_t, 12>;  // the constants by id, at the end the stage
+  using Key = std::array<std::uint32_t, 13>;  // the constants by id, at the end the stage
 
   const vk::Kernel& get(Stage stage, Key key, std::size_t constants);
 

@@ -11,6 +11,7 @@
 const int kNewtonSteps = 12;
 const int kBracketSamples = 48;
 const int kBisectionSteps = 64;
+const real kSteepest = real(-0.33);  // slopes (71 degrees of incidence) above which another crossing may come first
 
 // The crossing of a sphere of curvature c through the origin's vertex, from the eye side outwards:
 // c |p|^2 - 2 p_z = 0. Returns a negative t where there is none. `sheet` is set where it lies on the vertex's half.
@@ -68,6 +69,43 @@ const int kBracket = 1;  // look for a change of sign, kBracketSamples steps alo
 const int kRefine = 2;   // Newton's method kept between two t of different sign
 const int kMostEvaluations = kNewtonSteps + kBracketSamples + 1 + kBisectionSteps;
 
+const int kHurriedSteps = 2;
+
+// As shape_hit, for an even spline: so many steps of Newton's method in the cell in which the ray meets the base
+// sphere, which is fetched once. The ray is unsettled where they do not suffice or lead out of the cell.
+VG_FUNCTION SurfaceHit hurried_hit(TABLE_PARAM SurfaceData s, vec3 o, vec3 d, real dd, real semi_diameter) {
+  bool sheet = false;
+  real t = sphere_crossing(s.frame.w, vec3(o.x, o.y, o.z - s.frame.z), d, dd, sheet);
+  vec2 size = vec2(s.shape.y, s.shape.w);  // of cells, inverse
+  vec2 across = vec2(d.x, d.y) * size;
+  // As even_bspline_point, to the bit.
+  vec2 met = vec2((o.x + t * d.x - s.shape.x) * size.x, (o.y + t * d.y - s.shape.z) * size.y);
+  int i = int(clamp(met.x, real(0), real(s.kind.z - 1)));
+  int j = int(clamp(met.y, real(0), real(s.kind.w - 1)));
+  Cell cell = cell_at(TABLE s.offset.x + 4 * (i * s.kind.w + j));
+  CellValue value;
+  real slope = real(0);
+  real dt = real(0);
+  for (int step = 0; step <= kHurriedSteps; ++step) {
+    t += dt;
+    met = vec2((o.x + t * d.x - s.shape.x) * size.x - real(i), (o.y + t * d.y - s.shape.z) * size.y - real(j));
+    value = cell_value(cell, met.x, met.y);
+    slope = d.z - dot(value.d, across);
+    dt = (value.f - o.z - t * d.z) / slope;
+  }
+  real scale = abs(o.z) + semi_diameter;
+  bool settled = sheet && slope < kSteepest && abs(dt) <= real(2) * kEpsilon * scale;
+  SurfaceHit hit;
+  hit.point = cell_point(value, size);
+  hit.point.inside = met.x >= real(0) && met.x <= real(1) && met.y >= real(0) && met.y <= real(1);
+  hit.found = settled && hit.point.inside && t >= real(-4) * kEpsilon * scale;
+  hit.ledge = false;
+  hit.unsettled = !hit.found;
+  hit.steps = kHurriedSteps;
+  hit.t = hit.found ? max(t, real(0)) : real(0);
+  return hit;
+}
+
 // In the axes of the surface's shape. Beside the closed forms, one loop with one evaluation of the surface in it: that
 // code is by far the largest here, and compilers copy it to each place that calls it.
 VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, vec3 d, real semi_diameter) {
@@ -88,6 +126,12 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
   if (IS_PLACED(s)) {
     dd = dot(d, d);
   }
+  if (CELL_FIRST && NEWTON_STEPS == 0 && IS_KIND(s, kEvenBspline)) {
+    SurfaceHit soon = hurried_hit(TABLE s, o, d, dd, semi_diameter);
+    if (HURRIED || soon.found) {
+      return soon;
+    }
+  }
   real scale = abs(o.z) + semi_diameter;
   if (IS_KIND(s, kPlane) || IS_KIND(s, kSphere)) {
     real crossing = sphere_crossing(s.shape.x, o, d, dd, sheet);
@@ -98,10 +142,10 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
   }
   real t = sphere_crossing(s.frame.w, vec3(o.x, o.y, o.z - s.frame.z), d, dd, sheet);
   int phase = kNewton;
-  int steps = 0;          // of the phase
-  real last = scale;      // Newton's last step
-  real low = real(0);     // on this side of the surface
-  real high = real(0);    // beyond it
+  int steps = 0;        // of the phase
+  real last = scale;    // Newton's last step
+  real low = real(0);   // on this side of the surface
+  real high = real(0);  // beyond it
   bool above = false;
   bool search = !sheet;
   vec2 range = vec2(real(1), real(0));
@@ -127,11 +171,10 @@ VG_FUNCTION SurfaceHit shape_hit(TABLE_PARAM KINDS_PARAM SurfaceData s, vec3 o, 
     if (phase == kNewton) {
       real dt = -f / slope;
       real size = abs(dt);
-      // Rounding ends the iteration: within tolerance, or no longer shrinking once it is near it. Below this slope (71
-      // degrees of incidence) another crossing may come first; the search decides.
-      bool steep = slope < real(-0.33);
-      bool settled = steep && (size <= real(2) * kEpsilon * scale ||
-                               (size <= real(64) * kEpsilon * scale && size >= last));
+      // Rounding ends the iteration: within tolerance, or no longer shrinking once it is near it.
+      bool steep = slope < kSteepest;
+      bool settled =
+          steep && (size <= real(2) * kEpsilon * scale || (size <= real(64) * kEpsilon * scale && size >= last));
       // So many steps and no more: what the ray has come to counts where it runs down through the surface.
       bool spent = NEWTON_STEPS > 0 && steps > NEWTON_STEPS;
       settled = NEWTON_STEPS > 0 ? spent && slope < real(0) : settled;

@@ -11,6 +11,7 @@
 // that lenses without them pay nothing.
 // MAY_CROSS: front and back of some lens may cross. HURRIED: a search that does not settle at once is given up as
 // kStatusUnsettled, so that the code for it is not compiled; such rays are few and traced again.
+// CELL_FIRST: an even spline is first searched by hurried_hit, hurried or not, so that all kernels agree to the bit.
 // VIEWINGS: bit k is set if some eye views in the way k (trace_record.h). MAY_SIT_ON_EYE: some lens turns with the eye.
 // NEWTON_STEPS: a ray goes on from a surface after so many steps of the search for it, wherever they have led; 0: as
 // many as it takes.
@@ -29,13 +30,17 @@
 #define LENS_USED true
 #define MAY_CROSS true
 #define HURRIED false
+#define CELL_FIRST false
 #define NEWTON_STEPS 0
 #define VIEWINGS 7u
 #define MAY_SIT_ON_EYE true
 
 #else
 
-#ifndef real  // a shader may have made all of these double
+#ifdef real  // a shader may have made all of these double
+#define CELL_FIRST false
+#else
+#define CELL_FIRST true
 #define real float
 const float kEpsilon = 1.1920929e-7;
 #endif

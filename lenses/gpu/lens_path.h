@@ -23,7 +23,7 @@ struct LensPath {
   vec3 start;
   vec3 back_hit;
   vec3 front_hit;
-  vec3 direction;         // in air, before the lens
+  vec3 direction;  // in air, before the lens
   vec3 direction_glass;
   vec3 direction_object;  // in air, beyond the lens
   real t_back;            // pupil to back surface
@@ -46,7 +46,8 @@ VG_FUNCTION vec3 to_lens_point(LensData lens, vec3 p) {
 }
 
 VG_FUNCTION vec3 from_lens_direction(LensData lens, vec3 d) {
-  return vec3(lens.axis_x.x, lens.axis_x.y, lens.axis_x.z) * d.x + vec3(lens.axis_y.x, lens.axis_y.y, lens.axis_y.z) * d.y +
+  return vec3(lens.axis_x.x, lens.axis_x.y, lens.axis_x.z) * d.x +
+         vec3(lens.axis_y.x, lens.axis_y.y, lens.axis_y.z) * d.y +
          vec3(lens.axis_z.x, lens.axis_z.y, lens.axis_z.z) * d.z;
 }
 
@@ -54,24 +55,29 @@ VG_FUNCTION vec3 from_lens_point(LensData lens, vec3 p) {
   return from_lens_direction(lens, p) + vec3(lens.axis_x.w, lens.axis_y.w, lens.axis_z.w);
 }
 
+// Of a vector that is of unit length but for rounding.
+VG_FUNCTION vec3 renormalized(vec3 d) {
+  return d * (real(1.5) - real(0.5) * dot(d, d));
+}
+
 // Snell's law for a unit direction at a height field crossed towards -z. Returns n' cos phi' - n cos phi, or 0 with
 // `transmitted` false at total internal reflection. The sine comes from the cross product, which keeps its digits
 // near normal incidence.
 VG_FUNCTION real refract_direction(vec3 d, vec2 gradient, real n_in, real n_out, VG_INOUT(vec3) refracted,
                                    VG_INOUT(bool) transmitted) {
-  real w = sqrt(real(1) + dot(gradient, gradient));
-  vec3 normal = vec3(gradient.x, gradient.y, real(-1)) / w;
+  vec3 normal = vec3(gradient.x, gradient.y, real(-1));  // w times the unit normal
+  real ww = real(1) + dot(gradient, gradient);
   vec3 across = cross(d, normal);
   real mu = n_in / n_out;
-  real under = real(1) - mu * mu * dot(across, across);
+  real under = ww - mu * mu * dot(across, across);
   transmitted = under > real(0);
   if (!transmitted) {
     return real(0);
   }
   real cos_in = dot(d, normal);
   real cos_out = sqrt(under);
-  refracted = normalize(mu * d + (cos_out - mu * cos_in) * normal);
-  return n_out * cos_out - n_in * cos_in;
+  refracted = renormalized(mu * d + ((cos_out - mu * cos_in) / ww) * normal);
+  return (n_out * cos_out - n_in * cos_in) / sqrt(ww);
 }
 
 // start and direction in the lens frame; direction of unit length.
@@ -124,8 +130,8 @@ VG_FUNCTION LensPath trace_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dire
   path.t_front = front.t;
   path.steps_front = front.steps;
   path.front_hit = vec3(exit.x, exit.y, exit.z - lens.glass.y);
-  path.gamma_front = refract_direction(path.direction_glass, front.point.gradient, index, real(1),
-                                       path.direction_object, transmitted);
+  path.gamma_front =
+      refract_direction(path.direction_glass, front.point.gradient, index, real(1), path.direction_object, transmitted);
   path.status = transmitted ? kStatusOk : kStatusTirFront;
   return path;
 }
@@ -152,7 +158,8 @@ VG_FUNCTION LensPath follow_lens(TABLE_PARAM LensData lens, vec3 start, vec3 dir
   path.back_hit = start + lengths.x * direction;
   path.back = surface_point(TABLE KINDS(BACK_KINDS) lens.back, vec2(path.back_hit.x, path.back_hit.y));
   bool transmitted = false;
-  path.gamma_back = refract_direction(direction, path.back.gradient, real(1), lens.glass.x, path.direction_glass, transmitted);
+  path.gamma_back =
+      refract_direction(direction, path.back.gradient, real(1), lens.glass.x, path.direction_glass, transmitted);
   vec3 exit = vec3(path.back_hit.x, path.back_hit.y, path.back.z + lens.glass.y) + lengths.y * path.direction_glass;
   path.front = surface_point(TABLE KINDS(FRONT_KINDS) lens.front, vec2(exit.x, exit.y));
   path.front_hit = vec3(exit.x, exit.y, exit.z - lens.glass.y);

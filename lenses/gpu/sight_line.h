@@ -7,10 +7,10 @@
 struct SightLine {
   int status;
   mat3 turn;
-  vec3 pupil;             // centre of the entrance pupil, primary axes
-  vec3 e_h;               // basis of the pupil plane, primary axes
+  vec3 pupil;  // centre of the entrance pupil, primary axes
+  vec3 e_h;    // basis of the pupil plane, primary axes
   vec3 e_v;
-  vec3 start;             // where the ray leaves for the scene: front hit, or the pupil without a lens
+  vec3 start;  // where the ray leaves for the scene: front hit, or the pupil without a lens
   vec3 back_hit;
   vec3 direction;         // unit, before the lens
   vec3 direction_object;  // unit, beyond it
@@ -35,7 +35,10 @@ VG_FUNCTION SightLine bare_sight_line(EyeData eye, mat3 turn, vec3 direction, ve
   line.e_h = turn * local_h;
   line.e_v = turn * local_v;
   // A ray through another point of the pupil than its centre, for distributed rays (paper, section 6.2).
-  line.direction = normalize(direction + momentum.x * line.e_h + momentum.y * line.e_v);
+  line.direction = direction;
+  if (momentum.x != real(0) || momentum.y != real(0)) {
+    line.direction = normalize(direction + momentum.x * line.e_h + momentum.y * line.e_v);
+  }
   line.start = line.pupil + pupil_offset.x * line.e_h + pupil_offset.y * line.e_v;
   line.back_hit = line.start;
   line.direction_object = line.direction;
@@ -44,8 +47,11 @@ VG_FUNCTION SightLine bare_sight_line(EyeData eye, mat3 turn, vec3 direction, ve
 
 #define IS_ON_EYE(lens) (MAY_SIT_ON_EYE && (lens).mount.x == 1)
 
-// What stands in for the eye's axes in front of the lens: a lens attached to the eye is traced in the turned eye's frame.
-VG_FUNCTION mat3 lens_frame(LensData lens, SightLine line) { return IS_ON_EYE(lens) ? line.turn : mat3(real(1)); }
+// What stands in for the eye's axes in front of the lens: a lens attached to the eye is traced in the turned eye's
+// frame.
+VG_FUNCTION mat3 lens_frame(LensData lens, SightLine line) {
+  return IS_ON_EYE(lens) ? line.turn : mat3(real(1));
+}
 VG_FUNCTION vec3 lens_shift(LensData lens, SightLine line) {
   return IS_ON_EYE(lens) ? line.pupil : vec3(real(0), real(0), real(0));
 }
@@ -76,7 +82,8 @@ VG_FUNCTION SightLine trace_sight_line(TABLE_PARAM LensData lens, EyeData eye, m
 }
 
 // The chief ray's line again where it is known to pass the lens with these lengths (follow_lens).
-VG_FUNCTION SightLine follow_sight_line(TABLE_PARAM LensData lens, EyeData eye, mat3 turn, vec3 direction, vec2 lengths) {
+VG_FUNCTION SightLine follow_sight_line(TABLE_PARAM LensData lens, EyeData eye, mat3 turn, vec3 direction,
+                                        vec2 lengths) {
   SightLine line = bare_sight_line(eye, turn, direction, vec2(real(0), real(0)), vec2(real(0), real(0)));
   if (!LENS_USED || lens.glass.w == real(0)) {
     return line;
@@ -111,7 +118,9 @@ VG_FUNCTION vec3 transfer_axis(LensData lens, SightLine line) {
 }
 
 // An axis in its place that needs no more than the ray: what of e_h stands across it.
-VG_FUNCTION vec3 upright_axis(vec3 e_h, vec3 direction) { return normalize(e_h - dot(e_h, direction) * direction); }
+VG_FUNCTION vec3 upright_axis(vec3 e_h, vec3 direction) {
+  return normalize(e_h - dot(e_h, direction) * direction);
+}
 
 // The transfer with its outgoing basis turned from one such axis to another.
 VG_FUNCTION RayTransfer turned_transfer(RayTransfer m, vec3 from, vec3 to, vec3 direction) {

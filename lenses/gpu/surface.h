@@ -21,10 +21,13 @@ const int kBezier = 10;          // bezier.h: likewise
 const int kLookupSize = 32;  // inverse map of a parametric surface: kLookupSize^2 start values of (u, v)
 
 struct SurfaceData {
-  vec4 shape;    // even spline: where its cells begin and 1/(their size), along u and v; mesh: least x, least y, 1/side, side of its squares; else curvature (torus: of the revolved direction), curvature of the profile, conic constant, 1/(scale of even terms)^2
-  vec4 frame;    // cosine and sine of the axis of the revolved direction; sag and curvature of the first guess; mesh: least and greatest z
-  vec4 domain;   // x0, x1, y0, y1 of a patch (parametric: of its bounding box)
-  ivec4 kind;    // kind, number of even terms, cells along u, cells along v; Bezier: nodes of the tree in their place
+  vec4 shape;   // even spline: where its cells begin and 1/(their size), along u and v; mesh: least x, least y, 1/side,
+                // side of its squares; else curvature (torus: of the revolved direction), curvature of the profile,
+                // conic constant, 1/(scale of even terms)^2
+  vec4 frame;   // cosine and sine of the axis of the revolved direction; sag and curvature of the first guess; mesh:
+                // least and greatest z
+  vec4 domain;  // x0, x1, y0, y1 of a patch (parametric: of its bounding box)
+  ivec4 kind;   // kind, number of even terms, cells along u, cells along v; Bezier: nodes of the tree in their place
   ivec4 offset;  // into the table: coefficients, breaks along u, breaks along v, inverse lookup; Bezier: patches, tree
   vec4 shift;    // of a placed surface: decentration, height, 1; else 0
   vec4 slope;    // of a placed surface: its slope, -, -
@@ -79,8 +82,8 @@ VG_FUNCTION SurfacePoint conic_point(TABLE_PARAM KINDS_PARAM SurfaceData s, vec2
   SurfacePoint point;
   point.z = f;
   point.gradient = real(2) * f1 * p;
-  point.hessian = vec3(real(2) * f1 + real(4) * f2 * p.x * p.x, real(4) * f2 * p.x * p.y,
-                       real(2) * f1 + real(4) * f2 * p.y * p.y);
+  point.hessian =
+      vec3(real(2) * f1 + real(4) * f2 * p.x * p.x, real(4) * f2 * p.x * p.y, real(2) * f1 + real(4) * f2 * p.y * p.y);
   point.inside = inside;
   return point;
 }
@@ -112,9 +115,9 @@ VG_FUNCTION SurfacePoint torus_point(SurfaceData s, vec2 p) {
   real cs = s.frame.x;
   real sn = s.frame.y;
   point.gradient = vec2(cs * zu - sn * zv, sn * zu + cs * zv);
-  point.hessian = vec3(cs * cs * zuu - real(2) * cs * sn * zuv + sn * sn * zvv,
-                       cs * sn * (zuu - zvv) + (cs * cs - sn * sn) * zuv,
-                       sn * sn * zuu + real(2) * cs * sn * zuv + cs * cs * zvv);
+  point.hessian =
+      vec3(cs * cs * zuu - real(2) * cs * sn * zuv + sn * sn * zvv, cs * sn * (zuu - zvv) + (cs * cs - sn * sn) * zuv,
+           sn * sn * zuu + real(2) * cs * sn * zuv + cs * cs * zvv);
   point.inside = under_v > real(0) && b > real(0) && under_u > real(0);
   return point;
 }
@@ -137,19 +140,35 @@ VG_FUNCTION int find_cell(TABLE_PARAM int breaks, int cells, real x) {
   return i;
 }
 
-// One bicubic cell in power basis; rows by power of the second coordinate. Value, first and second derivatives in
-// cell units.
+// One bicubic cell in power basis; rows by power of the second coordinate.
+struct Cell {
+  vec4 r0;
+  vec4 r1;
+  vec4 r2;
+  vec4 r3;
+};
+
+VG_FUNCTION Cell cell_at(TABLE_PARAM int at) {
+  Cell cell;
+  cell.r0 = TABLE_AT(at);
+  cell.r1 = TABLE_AT(at + 1);
+  cell.r2 = TABLE_AT(at + 2);
+  cell.r3 = TABLE_AT(at + 3);
+  return cell;
+}
+
+// Value, first and second derivatives in cell units.
 struct CellValue {
   real f;
   vec2 d;
   vec3 dd;
 };
 
-VG_FUNCTION CellValue cell_value(TABLE_PARAM int at, real x, real y) {
-  vec4 r0 = TABLE_AT(at);
-  vec4 r1 = TABLE_AT(at + 1);
-  vec4 r2 = TABLE_AT(at + 2);
-  vec4 r3 = TABLE_AT(at + 3);
+VG_FUNCTION CellValue cell_value(Cell cell, real x, real y) {
+  vec4 r0 = cell.r0;
+  vec4 r1 = cell.r1;
+  vec4 r2 = cell.r2;
+  vec4 r3 = cell.r3;
   real three = real(3);
   real two = real(2);
   real six = real(6);
@@ -162,9 +181,19 @@ VG_FUNCTION CellValue cell_value(TABLE_PARAM int at, real x, real y) {
   CellValue value;
   value.f = ((a.w * y + a.z) * y + a.y) * y + a.x;
   value.d = vec2(((b.w * y + b.z) * y + b.y) * y + b.x, (three * a.w * y + two * a.z) * y + a.y);
-  value.dd = vec3(((c.w * y + c.z) * y + c.y) * y + c.x, (three * b.w * y + two * b.z) * y + b.y,
-                  six * a.w * y + two * a.z);
+  value.dd =
+      vec3(((c.w * y + c.z) * y + c.y) * y + c.x, (three * b.w * y + two * b.z) * y + b.y, six * a.w * y + two * a.z);
   return value;
+}
+
+// size: of the cell, inverse. Whether the surface exists there is left to the caller.
+VG_FUNCTION SurfacePoint cell_point(CellValue value, vec2 size) {
+  SurfacePoint point;
+  point.z = value.f;
+  point.gradient = value.d * size;
+  point.hessian = vec3(value.dd.x * size.x * size.x, value.dd.y * size.x * size.y, value.dd.z * size.y * size.y);
+  point.inside = true;
+  return point;
 }
 
 VG_FUNCTION SurfacePoint bspline_height_point(TABLE_PARAM SurfaceData s, vec2 p) {
@@ -172,11 +201,8 @@ VG_FUNCTION SurfacePoint bspline_height_point(TABLE_PARAM SurfaceData s, vec2 p)
   int j = find_cell(TABLE s.offset.z, s.kind.w, p.y);
   vec4 bx = TABLE_AT(s.offset.y + i);
   vec4 by = TABLE_AT(s.offset.z + j);
-  CellValue value = cell_value(TABLE s.offset.x + 4 * (i * s.kind.w + j), (p.x - bx.x) * bx.y, (p.y - by.x) * by.y);
-  SurfacePoint point;
-  point.z = value.f;
-  point.gradient = vec2(value.d.x * bx.y, value.d.y * by.y);
-  point.hessian = vec3(value.dd.x * bx.y * bx.y, value.dd.y * bx.y * by.y, value.dd.z * by.y * by.y);
+  Cell cell = cell_at(TABLE s.offset.x + 4 * (i * s.kind.w + j));
+  SurfacePoint point = cell_point(cell_value(cell, (p.x - bx.x) * bx.y, (p.y - by.x) * by.y), vec2(bx.y, by.y));
   point.inside = p.x >= s.domain.x && p.x <= s.domain.y && p.y >= s.domain.z && p.y <= s.domain.w;
   return point;
 }
@@ -186,12 +212,8 @@ VG_FUNCTION SurfacePoint even_bspline_point(TABLE_PARAM SurfaceData s, vec2 p) {
   vec2 cell = vec2((p.x - s.shape.x) * s.shape.y, (p.y - s.shape.z) * s.shape.w);
   int i = int(clamp(cell.x, real(0), real(s.kind.z - 1)));
   int j = int(clamp(cell.y, real(0), real(s.kind.w - 1)));
-  CellValue value = cell_value(TABLE s.offset.x + 4 * (i * s.kind.w + j), cell.x - real(i), cell.y - real(j));
-  SurfacePoint point;
-  point.z = value.f;
-  point.gradient = vec2(value.d.x * s.shape.y, value.d.y * s.shape.w);
-  point.hessian =
-      vec3(value.dd.x * s.shape.y * s.shape.y, value.dd.y * s.shape.y * s.shape.w, value.dd.z * s.shape.w * s.shape.w);
+  CellValue value = cell_value(cell_at(TABLE s.offset.x + 4 * (i * s.kind.w + j)), cell.x - real(i), cell.y - real(j));
+  SurfacePoint point = cell_point(value, vec2(s.shape.y, s.shape.w));
   point.inside = p.x >= s.domain.x && p.x <= s.domain.y && p.y >= s.domain.z && p.y <= s.domain.w;
   return point;
 }
@@ -229,9 +251,9 @@ VG_FUNCTION SurfacePoint bspline_surface_point(TABLE_PARAM SurfaceData s, vec2 p
     real cu = (w.x - bu.x) * bu.y;
     real cv = (w.y - bv.x) * bv.y;
     int at = s.offset.x + 12 * (i * s.kind.w + j);
-    x = cell_value(TABLE at, cu, cv);
-    y = cell_value(TABLE at + 4, cu, cv);
-    z = cell_value(TABLE at + 8, cu, cv);
+    x = cell_value(cell_at(TABLE at), cu, cv);
+    y = cell_value(cell_at(TABLE at + 4), cu, cv);
+    z = cell_value(cell_at(TABLE at + 8), cu, cv);
     scale = vec2(bu.y, bv.y);
     xd = x.d * scale;
     yd = y.d * scale;

@@ -41,7 +41,7 @@ void main() {
     more = differs_in_shape(key, depth, base + q.y * size.x + q.x);
   }
   if (!more) {
-    more = square_shows_more(views[frame.view.x], vec2(first) + 0.5 * float(kBeamBlock), key.x);
+    more = square_shows_more(view_data(frame.view.x), vec2(first) + 0.5 * float(kBeamBlock), key.x);
   }
   blocks[block_index(first)] = more ? 1u : 0u;
 }

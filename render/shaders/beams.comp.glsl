@@ -12,7 +12,7 @@ layout(std430, binding = 10) readonly buffer Doubtful { uint doubtful[]; };  // 
 layout(std430, binding = 11) buffer Edges { uint edges[]; };
 
 void main() {
-  ViewData view = views[frame.view.x];
+  ViewData view = view_data(frame.view.x);
   uint count = doubtful[kListCountAt];
   for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
     uint at = doubtful[kListFirstAt + i];

@@ -52,7 +52,7 @@ void main() {
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }
-  ViewData view = views[eye];
+  ViewData view = view_data(eye);
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
   vec3 direction = pixel_direction(view, vec2(p) + 0.5);
   mat3 turn = eye_turn(int(view.gaze.w), view.gaze.xyz, direction);

@@ -16,7 +16,7 @@ void main() {
   if (p.x >= frame.size.x || p.y >= frame.size.y) {
     return;
   }
-  ViewData view = views[eye];
+  ViewData view = view_data(eye);
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
   vec3 direction = pixel_direction(view, vec2(p) + 0.5);
   leave_pixel(view, trace_pixel(view, direction, vec2(0.0), vec2(0.0)), at);

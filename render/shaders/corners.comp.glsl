@@ -27,7 +27,7 @@ void main() {
   if (corner.x >= count.x || corner.y >= count.y) {
     return;
   }
-  ViewData view = views[eye];
+  ViewData view = view_data(eye);
   PixelRay ray = aim_pixel(view, pixel_direction(view, vec2(corner) * frame.corners.xy), vec2(0.0), vec2(0.0));
   take_transfer(view, ray);
   vec3 upright = upright_axis(ray.line.e_h, ray.line.direction_object);

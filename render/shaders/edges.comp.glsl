@@ -15,7 +15,7 @@ layout(std430, binding = 11) readonly buffer Edges { uint edges[]; };  // this v
 layout(std430, binding = 12) buffer Uneven { uint uneven[]; };         // made by the first round for the second
 
 void main() {
-  ViewData view = views[frame.view.x];
+  ViewData view = view_data(frame.view.x);
   bool again = frame.view.y != 0;
   const vec2 offsets[4] =
       vec2[4](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));

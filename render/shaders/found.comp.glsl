@@ -8,9 +8,9 @@
 #include "render/shaders/pixel.glsl"
 #define SHOWN_TILES_AT 17
 #include "render/shaders/group.glsl"
+#include "render/shaders/columns.glsl"
 #include "render/shaders/chief_out.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 13) uniform usamplerBuffer found_hits;
 layout(binding = 14) uniform samplerBuffer ray_origins;  // as ray_out.glsl leaves them
 layout(binding = 15) uniform samplerBuffer ray_directions;
@@ -72,14 +72,15 @@ PixelRay found_ray(ViewData view, vec3 direction, KnownRay known, int at) {
 }
 
 void main() {
-  ivec2 p = pixel_in_picture();
   int eye = frame.view.x;
-  if (p.x >= frame.size.x || p.y >= frame.size.y) {
-    return;
+  ViewData view = view_data(eye);
+  for (int row = 0; row < kColumn; ++row) {
+    ivec2 p = pixel_of_column(group_in_picture(), row);
+    if (p.x < frame.size.x && p.y < frame.size.y) {
+      int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
+      KnownRay known = known_ray(at);  // first, so that memory answers while the lens is looked through
+      vec3 direction = pixel_direction(view, vec2(p) + 0.5);
+      leave_pixel(view, found_ray(view, direction, known, at), at);
+    }
   }
-  ViewData view = views[eye];
-  int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
-  KnownRay known = known_ray(at);  // first, so that memory answers while the lens is looked through
-  vec3 direction = pixel_direction(view, vec2(p) + 0.5);
-  leave_pixel(view, found_ray(view, direction, known, at), at);
 }

@@ -41,4 +41,5 @@ uvec2 group_in_picture() {
 ivec2 pixel_in_picture() { return ivec2(group_in_picture() * 8u + gl_LocalInvocationID.xy); }
 
 // The same where all pixels cost alike, so that the device's own order does.
-ivec2 pixel_in_order() { return kListedTiles != 0u ? pixel_in_picture() : ivec2(gl_GlobalInvocationID.xy); }
+uvec2 group_in_order() { return kListedTiles != 0u ? group_in_picture() : gl_WorkGroupID.xy; }
+ivec2 pixel_in_order() { return ivec2(group_in_order() * 8u + gl_LocalInvocationID.xy); }

@@ -80,7 +80,7 @@ struct SceneRay {
 };
 
 SceneRay scene_ray(ViewData view, PixelRay ray) {
-  return SceneRay(world_point(view, ray.line.start), normalize(world_direction(view, ray.line.direction_object)));
+  return SceneRay(world_point(view, ray.line.start), renormalized(world_direction(view, ray.line.direction_object)));
 }
 
 // A ray before it has met anything: a rim's is complete.

@@ -10,21 +10,22 @@
 #include "render/shaders/list.glsl"
 #define SHOWN_TILES_AT 15
 #include "render/shaders/group.glsl"
+#include "render/shaders/columns.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(std430, binding = 12) buffer Unsettled { uint unsettled[]; };
 
 void main() {
-  ivec2 p = pixel_in_order();
   int eye = frame.view.x;
-  if (p.x >= frame.size.x || p.y >= frame.size.y) {
-    return;
+  ViewData view = view_data(eye);
+  for (int row = 0; row < kColumn; ++row) {
+    ivec2 p = pixel_of_column(group_in_order(), row);
+    if (p.x < frame.size.x && p.y < frame.size.y) {
+      int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
+      PixelRay ray = aim_pixel(view, p, at);
+      if (LENS_USED && ray.status == kStatusUnsettled) {
+        APPEND(unsettled, uint(at))
+      }
+      leave(view, ray, at);
+    }
   }
-  ViewData view = views[eye];
-  int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
-  PixelRay ray = aim_pixel(view, p, at);
-  if (LENS_USED && ray.status == kStatusUnsettled) {
-    APPEND(unsettled, uint(at))
-  }
-  leave(view, ray, at);
 }

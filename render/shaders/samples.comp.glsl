@@ -50,7 +50,7 @@ void main() {
     return;
   }
   int at = (eye * frame.size.y + p.y) * frame.size.x + p.x;
-  vec3 radiance = sample_radiance(views[eye], at);
+  vec3 radiance = sample_radiance(view_data(eye), at);
   float luminance = dot(radiance, vec3(0.2126, 0.7152, 0.0722));
   vec4 sum = vec4(radiance, (frame.sampling.x & 1) == 0 ? luminance : -luminance);
   if (frame.sampling.x > 0) {

@@ -24,9 +24,10 @@ layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // what the sc
 #include "render/shaders/frame.h"
 #include "render/shaders/view.h"
 
-// Uniform buffers: what all lanes read alike costs a software device one load instead of one a lane. Structures of
-// vec4 and ivec4 lie the same in std140 and std430.
-layout(std140, binding = 5) uniform Views { ViewData views[kMostViews]; };
+#include "render/shaders/view_words.glsl"
+
+// A uniform buffer, read at constant places: one load for all lanes of a software device. Structures of vec4 and ivec4
+// lie the same in std140 and std430.
 layout(std140, binding = 6) uniform Environment { EnvironmentData environment; };
 // Lists of structures, four words a texel: a software device loads a storage buffer word by word, lane by lane.
 layout(binding = 7) uniform usamplerBuffer lights;

@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 12) readonly buffer Unsettled { uint unsettled[]; };  // this view's alone
 
 void main() {
-  ViewData view = views[frame.view.x];
+  ViewData view = view_data(frame.view.x);
   uint count = unsettled[kListCountAt];
   for (uint i = gl_GlobalInvocationID.x; i < count; i += kListGroup * gl_NumWorkGroups.x) {
     int at = int(unsettled[kListFirstAt + i]);

@@ -17,13 +17,13 @@ Square square_at(ivec2 q, int level, int base) {
   int start = level == 0 ? base : blur_nearest_start(tile_count());
   int width = level == 0 ? pixels_a_row() : blur_level_width(tile_count(), 1);
   uvec4 packed = texelFetch(pixels, start + q.y * width + q.x);
-  Tap tap = unpack_tap(packed);
-  Square pixel = Square(tap.radiance, tap.depth < 0.0 ? 0.0 : 1.0, tap.ellipse, nearness(tap.depth));
-  if (kWide == 0u) {
-    return pixel;
+  Square square = unpack_square(packed);
+  if (kWide == 0u || level == 0) {
+    float depth = uintBitsToFloat(packed.w);
+    square.coverage = depth < 0.0 ? 0.0 : 1.0;
+    square.nearness = nearness(depth);
   }
-  vec2 more = unpackHalf2x16(packed.w);
-  return Square(pixel.radiance, level == 0 ? pixel.coverage : more.y, pixel.ellipse, level == 0 ? pixel.nearness : more.x);
+  return square;
 }
 
 // How far in front of `here` something stands, 0 or 1 and between: by the pixels that the pupil's half sets the two

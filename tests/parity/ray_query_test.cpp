@@ -114,7 +114,7 @@ TEST(RayQueries, RefuseABufferWithoutAStructure) {
   render::KernelSet kernels(device());
   const render::vk::Kernel& kernel = kernels.get(render::Stage::ray_query);
   const render::vk::Buffer plain(device(), 1024, render::vk::Memory::device);
-  const std::vector<const render::vk::Buffer*> buffers(15, &plain);
+  const std::vector<const render::vk::Buffer*> buffers(16, &plain);
   render::vk::Commands commands(device());
   EXPECT_THROW(commands.dispatch(kernel, buffers, render::vk::bytes_of(render::gpu::FrameData{}), 1),
                std::invalid_argument);

@@ -56,7 +56,7 @@ inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuf
   if (traversal == render::Traversal::tile) {
     commands.dispatch(kernels.get(render::Stage::tile, variant),
                       {&buffers.ray_origins, &buffers.ray_directions, &scene.wide_nodes, &scene.bvh_triangles,
-                       &buffers.hits, &buffers.list},
+                       &buffers.hits, &buffers.list, &buffers.shown_tiles},
                       render::vk::bytes_of(frame), static_cast<std::uint32_t>(width + 7) / 8,
                       static_cast<std::uint32_t>(height + 7) / 8);
     commands.barrier();
@@ -69,6 +69,7 @@ inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuf
   if (traversal == render::Traversal::ray_query) {
     std::vector<const render::vk::Buffer*> and_structure = all;
     and_structure.push_back(&scene.acceleration(device).top);
+    and_structure.push_back(&buffers.shown_tiles);
     commands.dispatch(kernels.get(render::Stage::ray_query, variant), and_structure, render::vk::bytes_of(frame),
                       static_cast<std::uint32_t>(width + 7) / 8, static_cast<std::uint32_t>(height + 7) / 8);
     commands.barrier();

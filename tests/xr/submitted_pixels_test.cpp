@@ -4,8 +4,7 @@
 #include <array>
 #include <chrono>
 
-#include "render/live_frame.hpp"
-#include "tests/support/headset_program.hpp"
+#include "tests/support/headset_picture.hpp"
 #include "tests/support/lit_scene.hpp"
 #include "tests/support/monado.hpp"
 #include "tests/support/x_screen.hpp"
@@ -18,28 +17,9 @@ using tracking::Side;
 constexpr int kHalf = 188;  // sRGB of linear 0.5, IEC 61966-2-1: 255 (1.055 0.5^(1/2.4) - 0.055) = 187.5
 
 // Between two walls of half the light of white: the left eye before a green one, the right eye before a red one.
-struct TwoColours {
+struct TwoColours : support::HeadsetPicture {
   explicit TwoColours(HeadsetProgram& program)
-      : scene(two_walls()), renderer(program.device, scene, {.traversal = render::Traversal::per_ray}) {
-    for (const Side side : {Side::left, Side::right}) {
-      render::ViewSetup& view = views.emplace_back();
-      view.lens = lenses::append_lens(model, nullptr, side, 0.00305);
-      view.eye = lenses::make_eye_data(lenses::Eye{}, 5.0, 0.003);
-      view.viewing = render::Viewing::fixed;
-      view.view.fov = tracking::FieldOfView::symmetric(1.0, 1.0);
-      if (side == Side::right) {
-        view.world_from_eye.orientation = glm::dquat(0.0, 0.0, 1.0, 0.0);  // half a turn
-      }
-    }
-    const xr::Swapchain& left = program.loop.swapchain(Side::left);
-    render::LiveConfig config;
-    config.frame.width = left.width();
-    config.frame.height = left.height();
-    config.frame.mode = render::Mode::pinhole;
-    config.blue_first = left.format() == VK_FORMAT_B8G8R8A8_SRGB;
-    live = std::make_unique<render::LiveFrame>(
-        renderer, model, views, config, std::vector{left.images(), program.loop.swapchain(Side::right).images()});
-  }
+      : HeadsetPicture(program, two_walls(), glm::dquat(0.0, 0.0, 1.0, 0.0)) {}  // half a turn
 
   static render::Scene two_walls() {
     render::Scene scene = support::dark_scene();
@@ -51,18 +31,9 @@ struct TwoColours {
   // Draws and hands over; with a reader before the images are given back.
   template <class F>
   void show(HeadsetProgram& program, const xr::Frame& frame, F&& before_release) {
-    const auto images = program.loop.acquire();
-    const std::array order{images[1], images[0]};  // left, right
-    live->start(model, views, order);
-    before_release(order);
+    before_release(start(program));
     program.loop.show(frame);
   }
-
-  render::Scene scene;
-  render::Renderer renderer;
-  lenses::LensModel model;
-  std::vector<render::ViewSetup> views;
-  std::unique_ptr<render::LiveFrame> live;
 };
 
 void expect_all(const render::Image8& image, const std::array<int, 3>& colour) {

@@ -11,8 +11,7 @@
 #include <thread>
 
 #include "app/vr/text_panel.hpp"
-#include "render/live_frame.hpp"
-#include "tests/support/headset_program.hpp"
+#include "tests/support/headset_picture.hpp"
 #include "tests/support/lit_scene.hpp"
 #include "tests/support/monado.hpp"
 #include "tests/support/run_program.hpp"
@@ -39,25 +38,7 @@ app::PlateConfig fonts() {
 // Both eyes before a grey wall, words over it.
 struct GreyWall {
   explicit GreyWall(HeadsetProgram& program)
-      : scene(wall()),
-        renderer(program.device, scene, {.traversal = render::Traversal::per_ray}),
-        text(program.device, program.session, program.loop.view_space(), fonts()) {
-    for (const Side side : {Side::left, Side::right}) {
-      render::ViewSetup& view = views.emplace_back();
-      view.lens = lenses::append_lens(model, nullptr, side, 0.00305);
-      view.eye = lenses::make_eye_data(lenses::Eye{}, 5.0, 0.003);
-      view.viewing = render::Viewing::fixed;
-      view.view.fov = tracking::FieldOfView::symmetric(1.0, 1.0);
-    }
-    const xr::Swapchain& left = program.loop.swapchain(Side::left);
-    render::LiveConfig config;
-    config.frame.width = left.width();
-    config.frame.height = left.height();
-    config.frame.mode = render::Mode::pinhole;
-    config.blue_first = left.format() == VK_FORMAT_B8G8R8A8_SRGB;
-    live = std::make_unique<render::LiveFrame>(
-        renderer, model, views, config, std::vector{left.images(), program.loop.swapchain(Side::right).images()});
-  }
+      : picture(program, wall()), text(program.device, program.session, program.loop.view_space(), fonts()) {}
 
   static render::Scene wall() {
     render::Scene scene = support::dark_scene();
@@ -67,17 +48,12 @@ struct GreyWall {
   }
 
   void show(HeadsetProgram& program, const xr::Frame& frame) {
-    const auto images = program.loop.acquire();
-    live->start(model, views, std::array{images[1], images[0]});
+    (void)picture.start(program);
     program.loop.show(frame, std::array{&text.panel()});
   }
 
-  render::Scene scene;
-  render::Renderer renderer;
+  support::HeadsetPicture picture;
   app::TextPanel text;
-  lenses::LensModel model;
-  std::vector<render::ViewSetup> views;
-  std::unique_ptr<render::LiveFrame> live;
 };
 
 std::array<tracking::EyeView, 2> views_of(const xr::Frame& frame) {
@@ -251,7 +227,7 @@ TEST(TextPanel, ValidationLayersHaveNothingToSay) {
       }
       wall.show(program, *frame);
     }
-    (void)wall.live->wait();
+    (void)wall.picture.live->wait();
     text << std::ifstream(log).rdbuf();
     program.leave();
     said = program.device.validation_messages();

@@ -47,7 +47,7 @@ struct VrReport {
   // From xrWaitFrame's return to the submission of the picture; and the processor time that this thread spent on the
   // frame, waits for device and images left out.
   TimeRing wait_to_submit, frame_code;
-  TimeRing head_speed;          // deg/s
+  TimeRing head_speed;          // deg/s, of frames in quick enough succession that it is known
   TimeRing reprojection_error;  // arcmin, see ReprojectionWatch: of a runtime that reprojects by one period
   int reconnections = 0;        // runtimes after the first
 

@@ -16,7 +16,8 @@ constexpr double kPause_s = 0.25;  // longer without a frame: what the head did 
 void ReprojectionWatch::see(double time, const tracking::Pose& world_from_head) {
   const Seen now{time, world_from_head.orientation};
   turn_ = glm::dvec3(0.0);
-  if (last_ && time > last_->time && time - last_->time <= kPause_s) {
+  known_ = last_ && time > last_->time && time - last_->time <= kPause_s;
+  if (known_) {
     glm::dquat turned = glm::conjugate(last_->orientation) * now.orientation;
     if (turned.w < 0.0) {
       turned = -turned;  // the same rotation, the short way

@@ -19,6 +19,8 @@ class ReprojectionWatch {
   // The world moved, not the head: the next frame is a first one.
   void forget() { last_.reset(); }
 
+  // Whether a speed is known of the last frame.
+  [[nodiscard]] bool is_known() const { return known_; }
   // rad/s about the head's axes.
   [[nodiscard]] const glm::dvec3& head_turn() const { return turn_; }
 
@@ -34,6 +36,7 @@ class ReprojectionWatch {
     glm::dquat orientation;
   };
   std::optional<Seen> last_;
+  bool known_ = false;
   glm::dvec3 turn_{0.0};
 };
 

@@ -154,6 +154,9 @@ void VrWorld::watch_reprojection(double time, const HeadAndViews& where, double 
     return;  // that head was another day's
   }
   reprojection_.see(time, where.world_from_head);
+  if (!reprojection_.is_known()) {
+    return;
+  }
   const double error = reprojection_.error(setup().lenses, setup().pairs, wearer_.state().gaze, period);
   report_.head_speed.add(glm::degrees(glm::length(reprojection_.head_turn())));
   report_.reprojection_error.add(glm::degrees(error) * 60.0);

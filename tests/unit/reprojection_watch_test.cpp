@@ -67,6 +67,7 @@ TEST_F(ReprojectionWatchTest, ShortWayRound) {
 
 TEST_F(ReprojectionWatchTest, NothingIsSaidOfWhatIsNotKnown) {
   watch_.see(0.0, turned(0.0));
+  EXPECT_FALSE(watch_.is_known());
   EXPECT_EQ(error(), 0.0) << "the first frame";
   watch_.see(kPeriod, turned(1.0));
   EXPECT_GT(error(), 0.0);
@@ -74,7 +75,9 @@ TEST_F(ReprojectionWatchTest, NothingIsSaidOfWhatIsNotKnown) {
   EXPECT_EQ(error(), 0.0) << "time stood still";
   watch_.see(5.0, turned(3.0));
   EXPECT_EQ(error(), 0.0) << "after a pause";
+  EXPECT_FALSE(watch_.is_known());
   watch_.see(5.0 + kPeriod, turned(4.0));
+  EXPECT_TRUE(watch_.is_known());
   EXPECT_GT(error(), 0.0);
   watch_.forget();
   watch_.see(5.0 + 2.0 * kPeriod, turned(90.0));

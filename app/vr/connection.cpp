@@ -88,9 +88,8 @@ void VrConnection::show_frames() {
       loop_.skip(*frame);
       ++world_.report().skipped;
     }
-    if (world_.is_finished() && !exit_requested_) {
-      exit_requested_ = true;
-      session_.request_exit();
+    if (world_.is_finished()) {
+      request_exit();
     }
   }
 }
@@ -100,10 +99,16 @@ std::optional<xr::Frame> VrConnection::next_frame() {
   return loop_.next();
 }
 
-bool VrConnection::stop_if_wanted() {
-  if (StopOnSignal::wanted() && !exit_requested_) {
+void VrConnection::request_exit() {
+  if (!exit_requested_) {
     exit_requested_ = true;
     session_.request_exit();
+  }
+}
+
+bool VrConnection::stop_if_wanted() {
+  if (StopOnSignal::wanted()) {
+    request_exit();
   }
   return session_.is_over();
 }

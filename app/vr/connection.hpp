@@ -35,6 +35,7 @@ class VrConnection {
  private:
   void describe();
   std::optional<xr::Frame> next_frame();
+  void request_exit();
   bool stop_if_wanted();
   // time: s, the session's
   void show(const xr::Frame& frame, double time);

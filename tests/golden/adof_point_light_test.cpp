@@ -12,17 +12,8 @@ using render::Mode;
 using support::PointLight;
 using support::Residual;
 
-class AdofPointLight : public testing::Test {
+class AdofPointLight : public support::PointLightSuite {
  protected:
-  static void SetUpTestSuite() {
-    device_ = new render::vk::Device();
-    renderer_ = new render::Renderer(*device_, PointLight::scene(true));
-  }
-  static void TearDownTestSuite() {
-    delete renderer_;
-    delete device_;
-  }
-
   // The mean picture's moments with the lamp at places a quarter of a pixel and more apart, over the 2 pixels that wide
   // blurs share.
   static support::Moments moments(const Residual& residual, Mode mode, const BlurAccuracy& blur) {
@@ -64,9 +55,6 @@ class AdofPointLight : public testing::Test {
     EXPECT_NEAR(blurred.light / sharp.light, 1.0, 0.01);
     EXPECT_NEAR(glm::length(blurred.centre - sharp.centre), 0.0, 0.05);
   }
-
-  inline static render::vk::Device* device_ = nullptr;
-  inline static render::Renderer* renderer_ = nullptr;
 };
 
 TEST_F(AdofPointLight, HasThePupilsMomentsAtEveryResidualAndAxis) {

@@ -9,6 +9,7 @@
 #include "lenses/surface_forms.hpp"
 #include "render/gpu_tracer.hpp"
 #include "render/ladder.hpp"
+#include "tests/support/contact_lens.hpp"
 #include "tests/support/optics_cases.hpp"
 #include "tests/support/rung_frame.hpp"
 
@@ -53,18 +54,6 @@ Lens small_lens() {
   lens.front = lenses::Torus{11.0, 8.0, 0.6, lenses::Torus::Revolve::u};
   lens.back = lenses::Sphere{12.0};
   lens.fit.pantoscopic_tilt = 9.0 * support::kDegree;
-  return lens;
-}
-
-Lens contact_lens() {
-  Lens lens;
-  lens.index = 1.43;
-  lens.centre_thickness = 0.0001;
-  lens.diameter = 0.014;
-  lens.front = lenses::Sphere{1.0 / 0.0089};
-  lens.back = lenses::Sphere{1.0 / 0.0086};
-  lens.fit.vertex_distance = 0.0;
-  lens.attached_to = Lens::AttachedTo::eye;
   return lens;
 }
 
@@ -141,7 +130,7 @@ TEST_F(LensRungs, AreAsNearAsTheirSettingsSayThroughAProgressive) {
 
 TEST_F(LensRungs, KeepRimsAndSegmentsWhereTheyAre) {
   for (const Worn& w : {worn("bifocal", of_file("presbyopia_bifocal")), worn("small lens", small_lens()),
-                        worn("contact lens", contact_lens(), render::Viewing::gaze, {0.3, 0.2, -1.0}),
+                        worn("contact lens", support::contact_lens(), render::Viewing::gaze, {0.3, 0.2, -1.0}),
                         worn("scanning", progressive(), render::Viewing::scanning)}) {
     for (const auto& [name, errors] : all(w, true)) {
       SCOPED_TRACE(w.name + ", " + name);

@@ -6,6 +6,7 @@
 
 #include "render/scene/ray_query.hpp"
 #include "render/vk/device.hpp"
+#include "tests/support/contact_lens.hpp"
 #include "tests/support/random_lens.hpp"
 #include "tests/support/worn_views.hpp"
 
@@ -64,18 +65,6 @@ Lens conic_lens() {
   return lens;
 }
 
-Lens contact_lens() {
-  Lens lens;
-  lens.index = 1.43;
-  lens.centre_thickness = 0.0001;
-  lens.diameter = 0.014;
-  lens.front = lenses::Sphere{1.0 / 0.0089};
-  lens.back = lenses::Sphere{1.0 / 0.0086};
-  lens.fit.vertex_distance = 0.0;
-  lens.attached_to = Lens::AttachedTo::eye;
-  return lens;
-}
-
 struct LensCase {
   std::string name;
   std::optional<lenses::Spectacles> spectacles;
@@ -93,7 +82,7 @@ std::vector<LensCase> lens_cases() {
       same_for_both("torus revolved about v", torus_lens(lenses::Torus::Revolve::u)),
       same_for_both("torus revolved about u", torus_lens(lenses::Torus::Revolve::v)),
       same_for_both("conic and plane", conic_lens()),
-      same_for_both("contact lens", contact_lens()),
+      same_for_both("contact lens", support::contact_lens()),
       same_for_both("parametric B-spline", support::ordinary_lens(random, 5, 1)),
       {"bifocal", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bifocal.json")},
       {"prism", lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/prism.json")},

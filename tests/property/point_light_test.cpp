@@ -9,17 +9,8 @@ namespace {
 using support::PointLight;
 using support::Residual;
 
-class PointLightTest : public testing::Test {
+class PointLightTest : public support::PointLightSuite {
  protected:
-  static void SetUpTestSuite() {
-    device_ = new render::vk::Device();
-    renderer_ = new render::Renderer(*device_, PointLight::scene(true));
-  }
-  static void TearDownTestSuite() {
-    delete renderer_;
-    delete device_;
-  }
-
   static render::RenderedView distributed(const support::WornPair& pair, const render::ViewSetup& view, int samples) {
     render::FrameConfig config;
     config.width = config.height = PointLight::kSize;
@@ -29,9 +20,6 @@ class PointLightTest : public testing::Test {
     config.keep_radiance = true;
     return renderer_->render(pair.model, {view}, config).views.front();
   }
-
-  inline static render::vk::Device* device_ = nullptr;
-  inline static render::Renderer* renderer_ = nullptr;
 };
 
 // The image of one point is where the pupil's points s come to lie: R s. A disc of diameter a has the variance (a/4)^2

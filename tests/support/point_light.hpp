@@ -1,10 +1,13 @@
 // Small lamps before dark walls, each seen out of focus: the image's second moments, and what geometry says they are.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat2x2.hpp>
 
+#include "render/vk/device.hpp"
 #include "tests/support/lit_scene.hpp"
 
 namespace support {
@@ -122,5 +125,21 @@ inline glm::dmat2 sharp_spread() {
 inline WornPair bare_pair() {
   return wear(lenses::Wearer{}, nullptr, tracking::Pose{});
 }
+
+// One device for all tests of a suite.
+class PointLightSuite : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    device_ = new render::vk::Device();
+    renderer_ = new render::Renderer(*device_, PointLight::scene(true));
+  }
+  static void TearDownTestSuite() {
+    delete renderer_;
+    delete device_;
+  }
+
+  inline static render::vk::Device* device_ = nullptr;
+  inline static render::Renderer* renderer_ = nullptr;
+};
 
 }  // namespace support

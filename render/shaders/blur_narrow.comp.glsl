@@ -9,10 +9,10 @@
 layout(binding = 2) uniform usamplerBuffer list;
 #include "render/shaders/listed_tiles.glsl"
 
-// Rows of weights around a pixel: row r's cells count by how much of them lies within half_span(r) of lean * r, times
-// strength(r).
+// Rows of weights around a pixel: a row's cells count by how much of them lies within its half span of where its middle
+// leans to, times its strength.
 struct Weights {
-  float scale, inverse_top;  // of a disc's rows
+  float scale, top, inverse_top;  // of a disc's rows
   float lean, softness, inverse_softness;
   vec2 half_spans;  // of a blur within the pixel, rows 0 and 1
   vec2 strengths;
@@ -30,16 +30,17 @@ Weights small_weights(vec3 ellipse) {
   float most = max(middle_side.y, middle_side.z);
   float of_most = most > 0.0 ? min(middle_side.y, middle_side.z) / most : 0.0;
   float lean = 0.5 * (middle_side.y >= middle_side.z ? of_most : 2.0 - of_most);
-  return Weights(0.0, 0.0, rising > 0.0 ? -lean : lean, 1.0, 1.0,
+  return Weights(0.0, 2.0, 0.0, rising > 0.0 ? -lean : lean, 1.0, 1.0,
                  vec2(0.5 + middle_side.x / middle, 0.5 + 0.5 * of_most), vec2(middle, most), true, 1);
 }
 
 Weights weights_of(vec3 ellipse) {
   Rows rows = rows_of(ellipse, vec2(0.0));
-  Weights disc = Weights(rows.width * rows.top, rows.inverse_top, rows.lean, rows.softness, rows.inverse_softness,
+  Weights disc = Weights(rows.width * rows.top, rows.top, rows.inverse_top, rows.lean, rows.softness, rows.inverse_softness,
                          vec2(0.0), vec2(0.0), false, row_range(rows).y);
   Weights nine = small_weights(ellipse);
   bool small = major(ellipse) < 1.0;
+  disc.top = small ? nine.top : disc.top;
   disc.lean = small ? nine.lean : disc.lean;
   disc.softness = small ? nine.softness : disc.softness;
   disc.inverse_softness = small ? nine.inverse_softness : disc.inverse_softness;
@@ -61,7 +62,7 @@ Row row_of(Weights w, int row, float above, float covered) {
   float half_span = w.scale * (above - covered);
   half_span = w.small ? (apart == 0 ? w.half_spans.x : w.half_spans.y) : half_span;
   float strength = w.small ? (apart == 0 ? w.strengths.x : w.strengths.y) : 1.0;
-  float middle = w.lean * float(row);
+  float middle = row_middle(float(row), w.top, w.lean);
   float beyond = half_span + 0.5 * w.softness - 0.5;
   bool within = apart <= w.last_row;
   return Row((vec2(half_span, -half_span) - middle) * w.inverse_softness + 0.5, within ? strength : 0.0,

@@ -38,14 +38,16 @@ float share(vec3 s, vec2 offset) {
   float widen = max(0.5 - b, 0.0);
   vec3 wide = s + vec3(widen, 0.0, widen);
   float det = max(wide.x * wide.z - wide.y * wide.y, 1e-6);
-  vec2 inner = vec2(wide.z * offset.x - wide.y * offset.y, wide.x * offset.y - wide.y * offset.x) / det;
-  float radius = length(inner);
+  vec2 inner = vec2(wide.z * offset.x - wide.y * offset.y, wide.x * offset.y - wide.y * offset.x);  // times det
   if (kGaussian != 0u) {
-    return exp(-2.0 * radius * radius) * 2.0 / (kPi * det);
+    return exp(-2.0 * dot(inner, inner) / (det * det)) * 2.0 / (kPi * det);
   }
+  float radius = max(dot(inner, inner), 1e-12);  // its square, times that of det
+  float area = kPi * (det + 1.0 / 12.0);
+  float inverse = 1.0 / (radius * area);  // one quotient for both
   float distance = length(offset);
-  float inside = distance / max(radius, 1e-6) - distance + 0.5;  // px within the ellipse's edge
-  return clamp(distance > 0.0 ? inside : 1.0, 0.0, 1.0) / (kPi * (det + 1.0 / 12.0));
+  float inside = det * distance * sqrt(inverse * area) - distance + 0.5;  // px within the ellipse's edge
+  return clamp(distance > 0.0 ? inside : 1.0, 0.0, 1.0) * inverse * radius;
 }
 
 // The mean over the pixel's ellipse of what lies at its depth and behind. Of what lies behind the nearest counts most.

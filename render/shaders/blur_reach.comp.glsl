@@ -79,9 +79,9 @@ void main() {
   reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : (wide_gathers ? -1.0 : -2.0), nearest);
   if (listed) {
     if (wide_gathers) {
-      APPEND_TILE(wide_layered, item, 1u)
+      APPEND_TILE(wide_layered, item, kNarrowTiles)
     } else {
-      APPEND_TILE(layered, item, 1u)
+      APPEND_TILE(layered, item, kNarrowTiles)
     }
   } else if (wide_gathers) {
     APPEND_TILE(blurred, item, 1u)

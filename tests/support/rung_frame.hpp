@@ -98,6 +98,9 @@ class RungFrame {
 
   std::vector<render::vk::StageTime> run() { return device_.run(commands_); }
 
+  // After run(), as render/frame_buffers.hpp has them.
+  [[nodiscard]] const render::FrameBuffers& buffers() const { return out_; }
+
   // After run().
   [[nodiscard]] RungErrors against(const ReferencePicture& reference) const {
     const std::size_t count = reference.pixels.size();

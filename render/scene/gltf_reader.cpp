@@ -147,7 +147,10 @@ Scene read_gltf(const std::string& path) {
   for (const PlacedNode& placed : placed_nodes(document)) {
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(placed.index)];
     if (node.mesh >= 0) append_mesh(document, node.mesh, placed.world_from_node, uv_sets, scene);
-    if (node.camera >= 0 && !scene.start_pose) scene.start_pose = rigid_pose(document, placed);
+    if (node.camera >= 0) {
+      const std::string& own = document.model.cameras.at(static_cast<std::size_t>(node.camera)).name;
+      scene.cameras.push_back({node.name.empty() ? own : node.name, rigid_pose(document, placed)});
+    }
     if (is_target(node)) read_target(document, placed, scene);
     const auto light = node.extensions.find("KHR_lights_punctual");
     if (light != node.extensions.end()) {

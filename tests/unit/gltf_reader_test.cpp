@@ -439,6 +439,17 @@ TEST(GltfReader, targets_are_the_named_nodes_that_say_so) {
   EXPECT_EQ(scene.targets[0].position, glm::dvec3(0.5, 0, -2));
 }
 
+// In a time that grows as their number; as its square it would be an hour.
+TEST(GltfReader, a_hundred_thousand_targets) {
+  Gltf g = square();
+  constexpr std::size_t kMany = 100'000;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    g.root["nodes"].push_back({{"name", "target " + std::to_string(i)}, {"extras", {{"target", true}}}});
+    g.root["scenes"][0]["nodes"].push_back(i + 1);
+  }
+  EXPECT_EQ(read(g).targets.size(), kMany);
+}
+
 TEST(GltfReader, the_environment_of_the_assets_extras) {
   Gltf g = square();
   EXPECT_EQ(read(g).environment.ambient, render::Environment{}.ambient);

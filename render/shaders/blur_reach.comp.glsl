@@ -70,7 +70,7 @@ void main() {
   } else if (own.x >= least_wide()) {
     APPEND_TILE(blurred, item, 1u)
   } else if (own.x >= frame.limits.x) {
-    APPEND_TILE(narrow, item, 1u)
+    APPEND_TILE(narrow, item, kNarrowTiles)
   }
   if (kRate > 1 && beside >= kWideBlur) {
     APPEND_TILE(squared, item, kSquaredTiles)

@@ -134,10 +134,18 @@ float half_widths(float y) {
   return y < 0.0 ? -within : within;
 }
 
+// The middle of a row's part of the ellipse. Only so far up as the ellipse goes: a thin one would lean out of its own
+// extent.
+float row_middle(float y, float top, float lean) {
+  float from = y - 0.5 > -top ? y - 0.5 : -top;
+  float to = y + 0.5 < top ? y + 0.5 : top;
+  return 0.5 * lean * (from + to);
+}
+
 // From where to where a row's part of the ellipse goes, as its mean over the row's height.
 vec2 row_span(Rows rows, int row) {
   float y = float(row) - rows.centre.y;
-  float middle = rows.centre.x + rows.lean * y;
+  float middle = rows.centre.x + row_middle(y, kernel_reach() * rows.top, rows.lean);
   float part = kernel_reach();
   if (kGaussian == 0u) {
     part = rows.top * (half_widths((y + 0.5) * rows.inverse_top) - half_widths((y - 0.5) * rows.inverse_top));

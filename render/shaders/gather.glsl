@@ -81,6 +81,16 @@ float least_wide() {
   return max(kGaussian != 0u ? 0.0 : least, frame.limits.x);
 }
 
+// How many tiles around its own a tile that gathers within `reach` px takes taps from: besides the reach half a cell on
+// the taps' grid (squares of half the widest cell and more), and the pixel's own place in squares of 2.
+int tiles_gathered(float reach) {
+  float cell = 1.5 * reach * sqrt(kPi / float(max(kTaps, 1)));
+  return int(ceil((reach + max(4.0, cell)) / float(kBlurTile)));
+}
+
+// Whether blurs go so far (px) that all tiles count as gathered from.
+bool all_are_sources(float most) { return tiles_gathered(most) > kMostBlurTiles; }
+
 // An ellipse whose second moments are less by `variance` (px^2) along every direction: what the taps' own size adds.
 vec3 shrunk(vec3 s, float variance) {
   float a = major(s);

@@ -208,7 +208,7 @@ TEST(Traversals, HitTheFirstOfALongChain) {
   Scene chain;
   for (int i = 0; i < kTriangles; ++i) {
     const float x = std::exp2(static_cast<float>(i) * 50.0F / kTriangles - 22.0F);
-    scene_oracle::add_triangle(chain, {x, 0.0F, 0.0F}, {x, 0.5F * x, 0.0F}, {x, 0.0F, 0.5F * x});
+    scene_oracle::add_triangle(chain, {x, 0.0F, 0.0F}, {x, 0.0F, 0.5F * x}, {x, 0.5F * x, 0.0F});
   }
   std::vector<SceneRay> rays;
   for (int y = 0; y < kSide; ++y) {

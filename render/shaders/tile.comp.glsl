@@ -18,6 +18,7 @@
 
 layout(constant_id = 0) const uint kLanes = 8u;  // of a subgroup: 8, 16, 32 or 64
 layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // kFeature... of view.h
+layout(constant_id = 12) const uint kCubicRays = 0u;  // 1: rays are cubics between corners, in smooth tiles alone
 #define HAS(features) ((kSceneFeatures & uint(features)) != 0u)
 layout(local_size_x_id = 0) in;
 layout(binding = 0) uniform samplerBuffer ray_origins;
@@ -26,9 +27,16 @@ layout(binding = 2) uniform usamplerBuffer wide_nodes;
 layout(binding = 3) uniform samplerBuffer bvh_triangles;
 layout(std430, binding = 4) writeonly buffer Hits { uint hits[]; };
 layout(std430, binding = 5) buffer LeftOut { uint left_out[]; };  // pixels to be traced one by one
+layout(std430, binding = 6) writeonly buffer Origins { vec4 origins[]; };  // of what is left out of cubic rays
+layout(std430, binding = 7) writeonly buffer Directions { vec4 directions_out[]; };
+layout(binding = 8) uniform samplerBuffer corners;
+layout(binding = 9) uniform usamplerBuffer is_smooth;
+layout(binding = 10) uniform usamplerBuffer view_words;
 layout(push_constant) uniform Frame { FrameData frame; };
-#define SHOWN_TILES_AT 6
+#define SHOWN_TILES_AT 11
 #include "render/shaders/group.glsl"
+#include "render/shaders/view_texels.h"
+#include "render/shaders/tile_cubics.glsl"
 
 #include "render/shaders/triangle_hit.glsl"
 #include "render/shaders/features.h"
@@ -107,6 +115,8 @@ int pixel_of(uint ray) {
   return outside ? -1 : (frame.view.x * frame.size.y + p.y) * frame.size.x + p.x;
 }
 
+vec4 world_column(int i) { return uintBitsToFloat(texelFetch(view_words, kViewTexels * frame.view.x + kViewWorldAt + i)); }
+
 // A macro, because a loop around the loop would not be unrolled, and then the rays would be looked up by an index.
 #define TEST_PART(part)                                                                                              \
   {                                                                                                                  \
@@ -139,10 +149,24 @@ void main() {
   vec3 high = vec3(-kFar);
   vec3 starts[kRays];
   vec4 directions[kRays];
+  bool is_cubic = true;
+  ColumnRays cubics;
+  if (kCubicRays != 0u) {
+    ivec2 tile = ivec2(group_in_picture());
+    is_cubic = tile_is_smooth(is_smooth, tile);
+    cubics = column_rays(tile_corners(tile), world_column(0), world_column(1), world_column(2));
+  }
   [[unroll]] for (uint r = 0u; r < kRays; ++r) {
     int at = pixel_of(r);
-    vec4 d = texelFetch(ray_directions, max(at, 0));
-    vec3 o = texelFetch(ray_origins, max(at, 0)).xyz;
+    vec4 d;
+    vec3 o;
+    if (kCubicRays != 0u) {
+      d = vec4(cubic_direction(cubics, int(r)), is_cubic ? 1.0 : -1.0);
+      o = cubic_origin(cubics, int(r));
+    } else {
+      d = texelFetch(ray_directions, max(at, 0));
+      o = texelFetch(ray_origins, max(at, 0)).xyz;
+    }
     d.w = at >= 0 ? d.w : -1.0;
     starts[r] = o;
     directions[r] = d;
@@ -319,11 +343,15 @@ void main() {
     PlaneHit there = plane_hit(met ? found[r] : 0u, starts[r], direction.xyz);
     bool holds = sound && (!met || (is_hit(there, kFarthest) && (there.flags & kBvhCutOut) == 0u &&
                                     ((there.flags & kBvhCulled) == 0u || there.determinant > 0.0)));
-    if (at >= 0) {
+    if (at >= 0 && is_cubic) {
       hits[at] = found[r];
     }
     if (at >= 0 && direction.w >= 0.0 && !holds) {
       APPEND(left_out, uint(at))
+      if (kCubicRays != 0u) {
+        origins[at] = vec4(starts[r], 0.0);
+        directions_out[at] = direction;
+      }
     }
   }
 }

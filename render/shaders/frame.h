@@ -36,7 +36,7 @@ const int kWavefrontTexels = 2;
 // A kept ray-transfer matrix (LensAccuracy), four vec4: A, B, C, D by columns, the outgoing basis by upright_axis.
 const int kTransferTexels = 4;
 // A corner of interpolated lens rays, six vec4: (origin, code), (direction, of length 1
-// along the picture's axis, -) in primary axes, the transfer.
+// along the picture's axis, code) in primary axes, the transfer.
 // code: the status and, in bits above it, which segments the ray has met.
 const int kCornerTexels = 6;
 const int kCornerStatusBits = 8;  // codes are less than this where no segment is met

@@ -185,11 +185,14 @@ void FrameJob::record_trace(vk::Commands& commands) {
     if (variant_.hits_known) {
       find_hits(commands);
     }
-    const Buffers buffers{&out_.pixels,         &out_.keys,      &out_.wavefronts, &out_.hits,        &out_.ray_origins,
-                          &out_.ray_directions, &out_.transfers, &out_.corners,    &out_.smooth_tiles};
-    trace_with(commands, Stage::found, buffers);
+    const Buffers to_found{&out_.pixels,      &out_.keys,           &out_.wavefronts, &out_.hits,
+                           &out_.ray_origins, &out_.ray_directions, &out_.transfers};
     if (variant_.cubic_rays) {
-      dispatch_rough(commands, Stage::found, with_scene(buffers));
+      trace_with(commands, Stage::found_cubic,
+                 {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.corners, &out_.smooth_tiles});
+      dispatch_rough(commands, Stage::found, with_scene(to_found));
+    } else {
+      trace_with(commands, Stage::found, to_found);
     }
   }
   commands.timestamp("trace");

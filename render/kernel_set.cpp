@@ -24,6 +24,7 @@
 #include "shaders/find_edges.hpp"
 #include "shaders/find_rough.hpp"
 #include "shaders/found.hpp"
+#include "shaders/found_cubic.hpp"
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
@@ -55,7 +56,7 @@ constexpr std::size_t kColumnsAt = 11;  // shaders/columns.glsl
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 constexpr std::size_t kListedTilesAt = 10;  // shaders/group.glsl
-constexpr std::size_t kCubicRaysAt = 12;    // shaders/tile.comp.glsl, shaders/found.comp.glsl
+constexpr std::size_t kCubicRaysAt = 12;    // shaders/tile.comp.glsl
 
 struct Recipe {
   const char* name;
@@ -103,8 +104,10 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found,
-              scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f, texel_rgba32f, texel_r32ui}),
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}),
+              Constants::chief};
+    case Stage::found_cubic:
+      return {"found_cubic", shaders::found_cubic, scene_and(3, {texel_r32ui, texel_rgba32f, texel_r32ui}),
               Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
@@ -170,6 +173,7 @@ bool goes_by_tiles(Stage stage) {
     case Stage::ray_query:
     case Stage::chief:
     case Stage::found:
+    case Stage::found_cubic:
     case Stage::beam_blocks:
     case Stage::find_edges:
     case Stage::samples:
@@ -221,7 +225,7 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
     key[kListedTilesAt] = 1U;
     count = std::max(count, kListedTilesAt + 1);
   }
-  if (variant.cubic_rays && (stage == Stage::tile || stage == Stage::found)) {
+  if (variant.cubic_rays && stage == Stage::tile) {
     key[kCubicRaysAt] = 1U;
     count = kCubicRaysAt + 1;
   }

@@ -23,6 +23,7 @@ enum class Stage : std::uint32_t {
   left_out,
   chief,
   found,
+  found_cubic,
   beam_blocks,
   find_edges,
   beams,

@@ -31,6 +31,7 @@
 #include "shaders/rays_double.hpp"
 #include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
+#include "shaders/tile_cubic.hpp"
 #include "shaders/unsettled.hpp"
 #include "shaders/unsettled_corners.hpp"
 
@@ -56,7 +57,6 @@ constexpr std::size_t kColumnsAt = 11;  // shaders/columns.glsl
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 constexpr std::size_t kListedTilesAt = 10;  // shaders/group.glsl
-constexpr std::size_t kCubicRaysAt = 12;    // shaders/tile.comp.glsl
 
 struct Recipe {
   const char* name;
@@ -91,8 +91,13 @@ Recipe recipe_of(Stage stage) {
     case Stage::tile:
       return {"tile",
               shaders::tile,
-              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer,
-               storage_buffer, storage_buffer, texel_rgba32f, texel_r32ui, texel_rgba32ui},
+              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
+              Constants::lanes_and_features};
+    case Stage::tile_cubic:
+      return {"tile_cubic",
+              shaders::tile_cubic,
+              {texel_rgba32f, texel_r32ui, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer,
+               texel_rgba32ui, storage_buffer, storage_buffer},
               Constants::lanes_and_features};
     case Stage::ray_query:
       return {"ray_query", shaders::ray_query,
@@ -170,6 +175,7 @@ bool goes_by_tiles(Stage stage) {
     case Stage::between:
     case Stage::find_rough:
     case Stage::tile:
+    case Stage::tile_cubic:
     case Stage::ray_query:
     case Stage::chief:
     case Stage::found:
@@ -224,10 +230,6 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   if (variant.listed_tiles && goes_by_tiles(stage)) {
     key[kListedTilesAt] = 1U;
     count = std::max(count, kListedTilesAt + 1);
-  }
-  if (variant.cubic_rays && stage == Stage::tile) {
-    key[kCubicRaysAt] = 1U;
-    count = kCubicRaysAt + 1;
   }
   return get(stage, key, count);
 }

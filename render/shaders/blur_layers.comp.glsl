@@ -28,24 +28,35 @@ Square square_at(ivec2 q, int level, int base) {
 
 // How far in front of `here` something stands, 0 or 1 and between: by the pixels that the pupil's half sets the two
 // apart. A surface may slope by a quarter of that a pixel.
-float in_front(float nearer, float here, vec2 offset) {
-  return clamp(frame.limits.w * (nearer - here) - kBlurParallax - 0.25 * length(offset), 0.0, 1.0);
+float in_front(float nearer, float here, float distance) {
+  return clamp(frame.limits.w * (nearer - here) - kBlurParallax - 0.25 * distance, 0.0, 1.0);
 }
+float in_front(float nearer, float here, vec2 offset) { return in_front(nearer, here, length(offset)); }
 
-// The part of a point's light that falls on a pixel at `offset`.
-float share(vec3 s, vec2 offset) {
+// How a point's light is spread: its ellipse, half a pixel wide and more, the ellipse's determinant, the px^2 it counts as.
+struct Spread {
+  vec3 ellipse;
+  float det, area;
+};
+
+Spread spread_of(vec3 s) {
   float b = max(s.x + s.z - major(s), 0.0);
   float widen = max(0.5 - b, 0.0);
   vec3 wide = s + vec3(widen, 0.0, widen);
   float det = max(wide.x * wide.z - wide.y * wide.y, 1e-6);
-  vec2 inner = vec2(wide.z * offset.x - wide.y * offset.y, wide.x * offset.y - wide.y * offset.x) / det;
-  float radius = length(inner);
+  return Spread(wide, det, kPi * (det + 1.0 / 12.0));
+}
+
+// The part of it that falls on a pixel at `offset`, `distance` away.
+float share(Spread s, vec2 offset, float distance) {
+  vec2 inner = vec2(s.ellipse.z * offset.x - s.ellipse.y * offset.y, s.ellipse.x * offset.y - s.ellipse.y * offset.x);
   if (kGaussian != 0u) {
-    return exp(-2.0 * radius * radius) * 2.0 / (kPi * det);
+    return exp(-2.0 * dot(inner, inner) / (s.det * s.det)) * 2.0 / (kPi * s.det);
   }
-  float distance = length(offset);
-  float inside = distance / max(radius, 1e-6) - distance + 0.5;  // px within the ellipse's edge
-  return clamp(distance > 0.0 ? inside : 1.0, 0.0, 1.0) / (kPi * (det + 1.0 / 12.0));
+  float radius = max(dot(inner, inner), 1e-12);  // its square, times that of det
+  float inverse = 1.0 / (radius * s.area);       // one quotient for both
+  float inside = s.det * distance * sqrt(inverse * s.area) - distance + 0.5;  // px within the ellipse's edge
+  return clamp(distance > 0.0 ? inside : 1.0, 0.0, 1.0) * inverse * radius;
 }
 
 // The mean over the pixel's ellipse of what lies at its depth and behind. Of what lies behind the nearest counts most.
@@ -121,55 +132,94 @@ vec3 clean_radiance(Tap centre, ivec2 p, int base) {
   return mix(centre.radiance, tap.radiance, w * blurred);
 }
 
-// Radiance times coverage, coverage: row by row over all from where light may come.
-vec4 front(float here, float reach, ivec2 p, int base) {
+vec4 from_front(Square tap, Spread spread, vec2 offset, float here) {
+  float distance = length(offset);
+  float w = tap.coverage * in_front(tap.nearness, here, distance) * share(spread, offset, distance);
+  return w * vec4(tap.radiance, 1.0);
+}
+
+// Of 2 x 2 pixels, radiance times coverage, coverage: row by row over all from where light may come.
+void front(vec4 here, float reach, ivec2 corner, int base, inout vec4 a, inout vec4 b, inout vec4 c, inout vec4 d) {
   int level = kWide != 0u && reach >= kWideBlur && kRate > 1 ? 1 : 0;
   float side = float(1 << level);
-  float radius = (reach + 1.0) / side;
+  float radius = (reach + 1.0) / side + float(1 - level);  // from the square's corner
   float step = max(1.0, ceil(sqrt(kPi / float(2 * kTaps)) * radius));
-  float area = side * side * step * step;  // px of a tap
-  ivec2 at = p >> level;
-  vec2 beside = (vec2(p) + 0.5) / side - vec2(at) - 0.5;
+  ivec2 at = corner >> level;
+  float middle = 0.5 * side - 0.5;  // of the square that holds the corner, from the corner's middle
   int rows = reach > 0.0 ? int(radius / step) : -1;
-  vec4 sum = vec4(0.0);
   for (int row = -rows; row <= rows; ++row) {
     float y = float(row) * step;
     int columns = int(sqrt(max(radius * radius - y * y, 0.0)) / step);
     for (int column = -columns; column <= columns; ++column) {
-      vec2 offset = vec2(float(column) * step, y);
-      Square tap = square_at(at + ivec2(offset), level, base);
-      offset = (offset - beside) * side;
-      float w = tap.coverage * in_front(tap.nearness, here, offset) * share(tap.ellipse, offset) * area;
-      sum += w * vec4(tap.radiance, 1.0);
+      vec2 place = vec2(float(column) * step, y);
+      Square tap = square_at(at + ivec2(place), level, base);
+      Spread spread = spread_of(tap.ellipse);
+      vec2 offset = place * side + middle;
+      a += from_front(tap, spread, offset, here.x);
+      b += from_front(tap, spread, offset - vec2(1.0, 0.0), here.y);
+      c += from_front(tap, spread, offset - vec2(0.0, 1.0), here.z);
+      d += from_front(tap, spread, offset - vec2(1.0, 1.0), here.w);
     }
   }
-  return sum.a > 1.0 ? sum / sum.a : sum;
+  float area = side * side * step * step;  // px of a tap
+  a *= area;
+  b *= area;
+  c *= area;
+  d *= area;
 }
 
-void main() {
-  ivec2 size = frame.size.xy;
-  int base = first_pixel();
-  ivec2 p = listed_pixel();
-  if (p.x >= size.x || p.y >= size.y) {
-    return;
-  }
+// before: what covers the pixel from in front.
+void blur_pixel(ivec2 p, int base, float reach_of_front, vec4 before) {
   Tap centre = tap_at(base + p.y * pixels_a_row() + p.x);
   vec3 mean = centre.radiance;
   if (centre.depth >= 0.0) {
     float reach = major(centre.ellipse);
-    float here = nearness(centre.depth);
-    vec2 before_tile = TILE_REACH(p / kBlurTile);
-    // The nearest itself has nothing in front of it.
-    float reach_of_front = frame.limits.w * (before_tile.y - here) > kBlurParallax ? before_tile.x : 0.0;
-    vec4 before = vec4(0.0);
     if (reach_of_front > 0.0) {
-      before = front(here, reach_of_front, p, base);
       mean = clean_radiance(centre, p, base);
     }
     if (reach >= frame.limits.x) {
       mean = reach < 1.0 ? small_beside(centre, mean, p, base) : beside_and_behind(centre, reach, p, base);
     }
+    before = before.a > 1.0 ? before / before.a : before;
     mean = before.rgb + (1.0 - before.a) * mean;
   }
-  leave_blurred((frame.view.x * size.y + p.y) * size.x + p.x, mean);
+  leave_blurred((frame.view.x * frame.size.y + p.y) * frame.size.x + p.x, mean);
+}
+
+float nearness_at(ivec2 p, int base) {
+  p = min(p, frame.size.xy - 1);
+  return nearness(uintBitsToFloat(texelFetch(pixels, base + p.y * pixels_a_row() + p.x).w));
+}
+
+// An invocation takes 2 x 2 pixels, for which it fetches and looks at once what may lie in front of them; a workgroup
+// takes kNarrowTiles tiles.
+void main() {
+  const int side = kBlurTile / 2;
+  int lane = int(gl_LocalInvocationIndex);
+  uint place = kNarrowTiles * listed_place() + uint(lane / (side * side));
+  ivec2 tile = listed_tile(place);
+  ivec2 corner = kBlurTile * tile + 2 * ivec2(lane % side, lane / side % side);
+  ivec2 size = frame.size.xy;
+  if (!is_listed(place) || any(greaterThanEqual(corner, size))) {
+    return;
+  }
+  int base = first_pixel();
+  vec2 before_tile = TILE_REACH(tile);
+  vec4 here = vec4(nearness_at(corner, base), nearness_at(corner + ivec2(1, 0), base),
+                   nearness_at(corner + ivec2(0, 1), base), nearness_at(corner + ivec2(1, 1), base));
+  // The nearest itself has nothing in front of it.
+  vec4 covered = step(vec4(kBlurParallax), frame.limits.w * (before_tile.y - here));
+  vec4 a = vec4(0.0);
+  vec4 b = vec4(0.0);
+  vec4 c = vec4(0.0);
+  vec4 d = vec4(0.0);
+  front(here, dot(covered, vec4(1.0)) > 0.0 ? before_tile.x : 0.0, corner, base, a, b, c, d);
+  for (int k = 0; k < 4; ++k) {
+    ivec2 p = corner + ivec2(k & 1, k >> 1);
+    vec4 before = k < 2 ? (k == 0 ? a : b) : (k == 2 ? c : d);
+    float is_covered = k < 2 ? (k == 0 ? covered.x : covered.y) : (k == 2 ? covered.z : covered.w);
+    if (all(lessThan(p, size))) {
+      blur_pixel(p, base, is_covered * before_tile.x, before);
+    }
+  }
 }

@@ -52,14 +52,15 @@ void main() {
   float nearest = own.y;
   float farthest = own.z;
   float reach = 0.0;
-  float beside = 0.0;  // the largest blur of the tiles that touch this one
+  float beside = 0.0;  // the largest blur of the tiles that touch this one and gather from means
   float most = kernel_reach() * uintBitsToFloat(texelFetch(wide, int(kWidestAt)).x);
   int around = min(int(ceil(most / float(kBlurTile))), kMostBlurTiles);
   for (int y = max(tile.y - around, 0); y <= min(tile.y + around, count.y - 1); ++y) {
     for (int x = max(tile.x - around, 0); x <= min(tile.x + around, count.x - 1); ++x) {
       vec4 other = texelFetch(tiles, y * count.x + x);
       float gap = float(kBlurTile * (max(abs(x - tile.x), abs(y - tile.y)) - 1));
-      beside = gap <= 0.0 ? max(beside, other.x) : beside;
+      beside = gap <= 0.0 && gathers_means(other) ? max(beside, other.x) : beside;
+      other.w = abs(other.w);
       if (kernel_reach() * own.x > gap) {
         nearest = max(nearest, other.y);
         farthest = min(farthest, other.z);
@@ -72,26 +73,25 @@ void main() {
   }
   reach = reach >= frame.limits.x ? min(reach * kernel_reach(), float(kBlurTile * kMostBlurTiles)) : 0.0;
   bool listed = reach > 0.0 || (own.x >= frame.limits.x && nearest - farthest > apart);
-  reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : -1.0, nearest);
   uint item = pack_tile(tile);
   float farthest_gathered = max(kernel_reach() * own.x, reach);
-  bool wide_gathers = (listed ? farthest_gathered : kernel_reach() * own.x) >= kernel_reach() * least_wide();
+  bool wide_gathers = listed ? farthest_gathered >= kernel_reach() * least_wide() : gathers_means(own);
+  reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : (wide_gathers ? -1.0 : -2.0), nearest);
   if (listed) {
     if (wide_gathers) {
-      APPEND_TILE(wide_layered, item, 1u)
+      APPEND_TILE(wide_layered, item, kNarrowTiles)
     } else {
-      APPEND_TILE(layered, item, 1u)
+      APPEND_TILE(layered, item, kNarrowTiles)
     }
-  } else if (own.x >= least_wide()) {
+  } else if (wide_gathers) {
     APPEND_TILE(blurred, item, 1u)
   } else if (own.x >= frame.limits.x) {
     APPEND_TILE(narrow, item, kNarrowTiles)
   }
-  bool shares = kRate > 1 && beside >= kWideBlur;
-  if (shares) {
+  if (beside >= kWideBlur) {
     APPEND_TILE(squared, item, kSquaredTiles)
   }
   if (!all_are_sources(most)) {
-    mark_sources(tile, wide_gathers ? tiles_gathered(farthest_gathered) : (shares ? 0 : -1));
+    mark_sources(tile, wide_gathers ? tiles_gathered(farthest_gathered) : -1);
   }
 }

@@ -21,7 +21,7 @@ void gather_square(ivec2 tile, ivec2 square) {
     ellipse += 0.25 * tap.ellipse;
     least = tap.depth < 0.0 ? 0.0 : min(least, tap.ellipse.x + tap.ellipse.z - major(tap.ellipse));
   }
-  bool wide = least >= kWideBlur && TILE_REACH(tile).x < 0.0;
+  bool wide = least >= kWideBlur && TILE_REACH(tile).x == -1.0;
   vec4 sum = vec4(0.0);
   if (wide) {
     float reach = major(ellipse);

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What each tile of a picture holds: its largest blur, its nearest and farthest point, the largest blur of what lies
-// nearest. Tiles in focus go out as they are, to the bit. An invocation for each tile.
+// nearest, whose sign is set where neighbours may share gathers. Tiles in focus go out as they are, to the bit. An
+// invocation for each tile.
 #include "render/shaders/gather.glsl"
 #include "render/shaders/blurred_out.glsl"
 
@@ -28,6 +29,13 @@ vec4 extremes(ivec2 corner, ivec2 within, int base) {
   return tile;
 }
 
+// As a pixel in the tile's middle says.
+bool may_share(ivec2 corner, int base) {
+  ivec2 middle = min(corner + kBlurTile / 2, frame.size.xy - 1);
+  vec3 ellipse = tap_at(base + middle.y * frame.size.x + middle.x).ellipse;
+  return kRate > 1 && ellipse.x + ellipse.z - major(ellipse) >= kWideBlur;
+}
+
 void main() {
   ivec2 tile = pixel_in_picture();
   if (any(greaterThanEqual(tile, tile_count()))) {
@@ -38,7 +46,8 @@ void main() {
   ivec2 within = min(ivec2(kBlurTile), frame.size.xy - corner);
   if (kTaps != 0) {
     vec4 found = extremes(corner, within, base);
-    tiles[tile.y * tile_count().x + tile.x] = found;
+    float near_reach = may_share(corner, base) ? uintBitsToFloat(floatBitsToUint(found.w) | 0x80000000u) : found.w;
+    tiles[tile.y * tile_count().x + tile.x] = vec4(found.xyz, near_reach);
     atomicMax(wide[kWidestAt], floatBitsToUint(found.x));
     if (found.x >= least_wide()) {
       wide[kWideGroupsAt] = gl_NumWorkGroups.x;

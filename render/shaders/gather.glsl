@@ -17,8 +17,8 @@ const float kPi = 3.14159265358979;
 // How far a kernel reaches, in radii of the disc: a Gaussian of the disc's second moments has lost 0.0004 % there.
 float kernel_reach() { return kGaussian != 0u ? 2.5 : 1.0; }
 
-// What reaches into a tile: how far (px) what lies in front does, -1 where no blur reaches across depth; how near (1/m)
-// the nearest is. The includer that needs it declares `reaches`.
+// What reaches into a tile: how far (px) what lies in front does, -1 or -2 where no blur reaches across depth, -1 if the
+// tile gathers from means; how near (1/m) the nearest is. The includer that needs it declares `reaches`.
 #define TILE_REACH(tile) \
   uintBitsToFloat(texelFetch(reaches, (tile).y * tile_count().x + (tile).x).xy)
 
@@ -73,12 +73,21 @@ uint pack_tile(ivec2 tile) { return uint(tile.x | tile.y << 16); }
 int first_pixel() { return kWide != 0u ? 0 : frame.view.x * frame.size.x * frame.size.y; }
 int pixels_a_row() { return kWide != 0u ? blur_level_width(tile_count(), 0) : frame.size.x; }
 
+// The least major semi-axis whose taps may be too many to be pixels (level_of).
+float least_squared() { return sqrt(2.0 * float(max(kTaps, 1)) / kPi); }
+
 // The least major semi-axis that has a use for means over squares (level_of, kWideBlur). A Gaussian's weights are made
 // in the kernels of wide blurs alone.
 float least_wide() {
-  float least = sqrt(2.0 * float(max(kTaps, 1)) / kPi);
-  least = kRate > 1 ? min(least, kWideBlur) : least;
+  float least = kRate > 1 ? min(least_squared(), kWideBlur) : least_squared();
   return max(kGaussian != 0u ? 0.0 : least, frame.limits.x);
+}
+
+// Whether a tile of one depth gathers from means, else from pixels alone: these are best where neighbours may not share
+// gathers (the sign that blur_tiles leaves, not set where a blur is long in one direction alone) and taps are few enough.
+bool gathers_means(vec4 tile) {
+  bool shares = floatBitsToInt(tile.w) < 0;
+  return tile.x >= least_wide() && (shares || tile.x >= least_squared() || kGaussian != 0u);
 }
 
 // How many tiles around its own a tile that gathers within `reach` px takes taps from: besides the reach half a cell on

@@ -185,6 +185,24 @@ TEST(Adof, IsSteadyAsTheHeadTurns) {
   }
 }
 
+// Wide blurs gather from means that are made where they reach, in memory that an earlier picture has used: nothing of
+// that picture shows, whatever is blurred beside whatever is not.
+TEST(Adof, NothingOfAnEarlierPictureShows) {
+  render::Scene scene = support::layered_scene();
+  const auto lit = support::add_material(scene, support::unlit({0.9F, 0.3F, 0.5F, 1.0F}));
+  support::add_ball(scene, lit, {0.012F, -0.012F, -0.2F}, 0.001F, 6);  // far out of focus before all else
+  const auto pair = bare_pair();
+  render::Renderer used(device(), scene, {.traversal = render::Traversal::per_ray});
+  for (const double radius_px : {0.0, 4.0, 9.0}) {
+    SCOPED_TRACE(testing::Message() << radius_px << " px");
+    (void)render_with(used, pair, eye_with_blur(pair, 25.0, 30.0), {});
+    auto setup = eye_with_blur(pair, radius_px);
+    setup.eye.excess.x += 3.0;  // longer one way than the other
+    render::Renderer fresh(device(), scene, {.traversal = render::Traversal::per_ray});
+    EXPECT_EQ(render_with(used, pair, setup, {}).radiance, render_with(fresh, pair, setup, {}).radiance);
+  }
+}
+
 struct HardView {
   double excess = 0.0;  // D
   double half_tangent = 0.5;

@@ -59,6 +59,7 @@ struct FrameBuffers {
         blur_narrow(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
         blur_squared(device, (s.blur_tiles + 4) * 4, vk::Memory::device),
         blur_reaches(device, s.blur_tiles * 8, vk::Memory::device),
+        blur_sources(device, s.blur_tiles * 4, vk::Memory::device),
         blur_levels(device, s.blur_tiles * gpu::kWideTexels * 16, vk::Memory::device),
         blur_squares(device, s.blur_tiles * 16 * 8, vk::Memory::device),
         shown_tiles(device, std::max<std::size_t>(s.listed_tiles, 4) * 4, vk::Memory::device),
@@ -69,8 +70,8 @@ struct FrameBuffers {
   Size size;
   vk::Buffer pixels, keys, wavefronts, sums, ray_origins, ray_directions, hits, transfers, corners, smooth_tiles,
       rough_tiles, rough_counts, list, doubtful, blocks, blur_tiles, blur_wide, blur_layered, blur_wide_layered,
-      blur_blurred, blur_narrow, blur_squared, blur_reaches, blur_levels, blur_squares, shown_tiles, shown_counts,
-      radiance, display;
+      blur_blurred, blur_narrow, blur_squared, blur_reaches, blur_sources, blur_levels, blur_squares, shown_tiles,
+      shown_counts, radiance, display;
   std::vector<std::byte> corners_of;  // what the corners hold was traced for: see corner_key()
   int samples = 0;                    // in sums
 };

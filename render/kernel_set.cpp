@@ -136,12 +136,15 @@ Recipe recipe_of(Stage stage) {
       return {"blur_reach",
               shaders::blur_reach,
               {texel_rgba32ui, texel_rgba32f, storage_buffer, texel_r32ui, storage_buffer, storage_buffer,
-               storage_buffer, storage_buffer, storage_buffer},
+               storage_buffer, storage_buffer, storage_buffer, storage_buffer},
               Constants::blur};
     case Stage::blur_narrow:
       return {"blur_narrow", shaders::blur_narrow, {texel_rgba32ui, storage_buffer, texel_r32ui}, Constants::blur};
     case Stage::blur_levels:
-      return {"blur_levels", shaders::blur_levels, {texel_rgba32ui, storage_buffer}, Constants::blur};
+      return {"blur_levels",
+              shaders::blur_levels,
+              {texel_rgba32ui, storage_buffer, texel_r32ui, texel_r32ui},
+              Constants::blur};
     case Stage::blur_layers:
       return {"blur_layers",
               shaders::blur_layers,

@@ -74,7 +74,7 @@ SceneBvh build_scene_bvh(const Scene& scene) {
   }
 
   const BinaryBvh binary = build_binary_bvh(boxes, kLeafTriangles, kBvhMaxLeafTriangles, 2 * kBvhMaxDepth);
-  const glm::vec3 viewer(scene.start_pose.value_or(tracking::Pose{}).position);
+  const glm::vec3 viewer(scene.start_pose().value_or(tracking::Pose{}).position);
   SceneBvh both{collapse_to_four(binary), collapse_to_eight(binary, viewer)};
   Bvh4& bvh = both.four;
   bvh.triangles.reserve(kept.size() * kBvhTriangleTexels);

@@ -76,7 +76,7 @@ struct Place {
 std::vector<Place> places() {
   std::vector<Place> all;
   Scene room = support::reading_room();
-  const tracking::Pose in_room = room.start_pose.value();
+  const tracking::Pose in_room = room.start_pose().value();
   all.push_back({"reading room", std::move(room), in_room});
   all.push_back({"cluttered room", support::cluttered_room(7, 60000), tracking::Pose{}});
   tracking::Pose above;

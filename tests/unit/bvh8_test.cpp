@@ -130,8 +130,8 @@ TEST(Bvh8, IsShallowAroundTheViewer) {
     scene_oracle::add_box(scene, {far * std::cos(turn), -far, far * std::sin(turn)}, glm::vec3(0.5F * far), 0);
   }
   const auto crossed = [&](const glm::vec3& start) {
-    scene.start_pose = tracking::Pose{};
-    scene.start_pose->position = start;
+    scene.cameras = {{"start", tracking::Pose{}}};
+    scene.cameras[0].pose.position = start;
     return nodes_crossed(render::build_scene_bvh(scene).eight, glm::vec3(0.0F));
   };
   const double for_within = crossed(glm::vec3(0.0F)), for_afar = crossed(glm::vec3(1e7F));

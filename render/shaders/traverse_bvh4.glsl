@@ -84,15 +84,17 @@ Hit traverse_bvh4(vec3 origin, vec3 direction, float t_max, bool any_hit) {
         VERGENCE_ORDER(x, z)
         VERGENCE_ORDER(y, w)
         VERGENCE_ORDER(y, z)
-        // The builder bounds the depth so that this fits.
-        if (entry.w != kMissed) stack[top++] = child.w;
-        if (entry.z != kMissed) stack[top++] = child.z;
-        if (entry.y != kMissed) stack[top++] = child.y;
-        if (entry.x != kMissed) {
-          current = child.x;
-        } else {
-          current = top > 0 ? stack[--top] : kTraversalDone;
-        }
+        // The builder bounds the depth so that this fits. What is missed is overwritten: a branch would run both sides.
+        stack[top] = child.w;
+        top += entry.w != kMissed ? 1 : 0;
+        stack[top] = child.z;
+        top += entry.z != kMissed ? 1 : 0;
+        stack[top] = child.y;
+        top += entry.y != kMissed ? 1 : 0;
+        bool goes_down = entry.x != kMissed;
+        bool goes_on = !goes_down && top > 0;
+        top -= goes_on ? 1 : 0;
+        current = goes_down ? child.x : (goes_on ? stack[top] : kTraversalDone);
       }
     } while (current < kBvhLeafBit && steps < kMaxTraversalSteps);
     do {

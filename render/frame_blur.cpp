@@ -79,6 +79,7 @@ void FrameJob::blur_tiles(vk::Commands& commands, const BlurVariant& variant, co
       {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.blur_wide, &out_.blur_layered, &out_.blur_blurred,
        &out_.blur_narrow, &out_.blur_squared, &out_.blur_wide_layered, &out_.blur_sources},
       gpu::kBlurTile);
+  commands.barrier();
   dispatch_list(commands, kernels_.get(Stage::blur_levels, variant),
                 {&out_.pixels, &out_.blur_levels, &out_.blur_wide, &out_.blur_sources}, out_.blur_wide);
   commands.barrier();

@@ -90,45 +90,52 @@ bool beam_shows_more(SceneRay middle, Beam beam, SeenFace seen) {
   uint current = is_sound(middle.origin, direction) ? 0u : kTraversalDone;
   int steps = 0;
   bool found = false;
-  while (current != kTraversalDone && steps < kMaxTraversalSteps) {
-    while (current < kBvhLeafBit && steps < kMaxTraversalSteps) {
-      ++steps;
-      int texel = int(current * kBvhNodeTexels);
-      uvec4 q0 = texelFetch(bvh_nodes, texel);
-      uvec4 q1 = texelFetch(bvh_nodes, texel + 1);
-      uvec4 q2 = texelFetch(bvh_nodes, texel + 2);
-      uvec4 child = texelFetch(bvh_nodes, texel + 3);
-      vec3 start = vec3(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z)) - middle.origin;
-      vec3 scale = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y));
-      vec4 x0 = unpack_bytes(q1.z) * scale.x + start.x;
-      vec4 x1 = unpack_bytes(q1.w) * scale.x + start.x;
-      vec4 y0 = unpack_bytes(q2.x) * scale.y + start.y;
-      vec4 y1 = unpack_bytes(q2.y) * scale.y + start.y;
-      vec4 z0 = unpack_bytes(q2.z) * scale.z + start.z;
-      vec4 z1 = unpack_bytes(q2.w) * scale.z + start.z;
-      vec4 end = max(x0 * direction.x, x1 * direction.x) + max(y0 * direction.y, y1 * direction.y) +
-                 max(z0 * direction.z, z1 * direction.z);
-      vec4 grow = width + growth * clamp(end, 0.0, reach);
-      vec4 ax = (x0 - grow) * inverse.x, bx = (x1 + grow) * inverse.x;
-      vec4 ay = (y0 - grow) * inverse.y, by = (y1 + grow) * inverse.y;
-      vec4 az = (z0 - grow) * inverse.z, bz = (z1 + grow) * inverse.z;
-      vec4 entry = max(max(min(ax, bx), min(ay, by)), max(min(az, bz), vec4(0.0)));
-      vec4 leave = min(min(max(ax, bx), max(ay, by)), min(max(az, bz), vec4(reach)));
-      if (entry.x <= leave.x && child.x != kBvhNoChild) stack[top++] = child.x;
-      if (entry.y <= leave.y && child.y != kBvhNoChild) stack[top++] = child.y;
-      if (entry.z <= leave.z && child.z != kBvhNoChild) stack[top++] = child.z;
-      if (entry.w <= leave.w && child.w != kBvhNoChild) stack[top++] = child.w;
-      current = top > 0 ? stack[--top] : kTraversalDone;
-    }
-    while (current >= kBvhLeafBit && current != kTraversalDone) {
-      uint first = (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
-      uint count = current & kBvhLeafCountMask;
-      for (uint i = 0u; i < count && !found; ++i) {
-        found = shows_in_beam(first + i, middle, beam, seen);
+  // Loops ask at their end: on a software device one that asks at its start runs once more for nothing.
+  do {
+    do {
+      if (current < kBvhLeafBit) {
+        ++steps;
+        int texel = int(current * kBvhNodeTexels);
+        uvec4 q0 = texelFetch(bvh_nodes, texel);
+        uvec4 q1 = texelFetch(bvh_nodes, texel + 1);
+        uvec4 q2 = texelFetch(bvh_nodes, texel + 2);
+        uvec4 child = texelFetch(bvh_nodes, texel + 3);
+        vec3 start = vec3(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z)) - middle.origin;
+        vec3 scale = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y));
+        vec4 x0 = unpack_bytes(q1.z) * scale.x + start.x;
+        vec4 x1 = unpack_bytes(q1.w) * scale.x + start.x;
+        vec4 y0 = unpack_bytes(q2.x) * scale.y + start.y;
+        vec4 y1 = unpack_bytes(q2.y) * scale.y + start.y;
+        vec4 z0 = unpack_bytes(q2.z) * scale.z + start.z;
+        vec4 z1 = unpack_bytes(q2.w) * scale.z + start.z;
+        vec4 end = max(x0 * direction.x, x1 * direction.x) + max(y0 * direction.y, y1 * direction.y) +
+                   max(z0 * direction.z, z1 * direction.z);
+        vec4 grow = width + growth * clamp(end, 0.0, reach);
+        vec4 ax = (x0 - grow) * inverse.x, bx = (x1 + grow) * inverse.x;
+        vec4 ay = (y0 - grow) * inverse.y, by = (y1 + grow) * inverse.y;
+        vec4 az = (z0 - grow) * inverse.z, bz = (z1 + grow) * inverse.z;
+        vec4 entry = max(max(min(ax, bx), min(ay, by)), max(min(az, bz), vec4(0.0)));
+        vec4 leave = min(min(max(ax, bx), max(ay, by)), min(max(az, bz), vec4(reach)));
+        if (entry.x <= leave.x && child.x != kBvhNoChild) stack[top++] = child.x;
+        if (entry.y <= leave.y && child.y != kBvhNoChild) stack[top++] = child.y;
+        if (entry.z <= leave.z && child.z != kBvhNoChild) stack[top++] = child.z;
+        if (entry.w <= leave.w && child.w != kBvhNoChild) stack[top++] = child.w;
+        current = top > 0 ? stack[--top] : kTraversalDone;
       }
-      current = top > 0 && !found ? stack[--top] : kTraversalDone;
-    }
-  }
+    } while (current < kBvhLeafBit && steps < kMaxTraversalSteps);
+    do {
+      if (current >= kBvhLeafBit && current != kTraversalDone) {
+        uint first = (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
+        uint count = current & kBvhLeafCountMask;
+        uint i = 0u;
+        do {
+          found = shows_in_beam(first + i, middle, beam, seen);
+          ++i;
+        } while (i < count && !found);
+        current = top > 0 && !found ? stack[--top] : kTraversalDone;
+      }
+    } while (current >= kBvhLeafBit && current != kTraversalDone);
+  } while (current != kTraversalDone && steps < kMaxTraversalSteps);
   return found;
 }
 

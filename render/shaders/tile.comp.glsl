@@ -184,7 +184,7 @@ void keep_ray(int at, vec3 origin, vec4 direction) {}
   {                                                                                                                  \
     uint here = (survivors >> (8u * part)) & 255u;                                                                   \
     do {                                                                                                             \
-      uint j = uint(findLSB(here));                                                                                  \
+      uint j = uint(findLSB(here)) & 7u;                                                                             \
       float nowhere = here == 0u ? -kFar : 0.0;                                                                      \
       here &= here - 1u;                                                                                             \
       vec4 plane = vec4(OF_LANE(n.x, j), OF_LANE(n.y, j), OF_LANE(n.z, j), OF_LANE(dn, j));                          \
@@ -319,7 +319,7 @@ void main() {
       sound = sound && fits;
       farthest = fits ? farthest : -1.0;
       // The farthest lies deepest, the nearest is already taken off.
-      key = OF_LANE(sorted(hit ? key | kHitBit : 0u), lane - stack.size);
+      key = OF_LANE(sorted(hit ? key | kHitBit : 0u), (lane - stack.size) % kLanes);
       uint reference = OF_LANE(low_q.w, key & 7u);
       [[unroll]] for (uint i = 0u; i < kStackSlots; ++i) {
         stack.slot[i] = kLanes * i + lane - stack.size < count ? reference : stack.slot[i];

@@ -9,6 +9,7 @@
 #include "lenses/lens_io/lens_io.hpp"
 #include "lenses/pupil.hpp"
 #include "lenses/trace.hpp"
+#include "render/scene/framing.hpp"
 #include "tracking/input_error.hpp"
 
 namespace app {
@@ -42,6 +43,26 @@ const render::Target& find_target(const std::string& name, const render::Scene& 
   throw InputError(
       "--look-at", "",
       "'" + name + "' is not a target of the scene; " + (known.empty() ? "it has none" : "it has " + known));
+}
+
+// By its name, or its number from 0 on; nothing where the text is five numbers.
+std::optional<Pose> pose_of_camera(const std::string& text, const render::Scene& scene) {
+  std::string known;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const render::Camera& camera = scene.cameras[i];
+    const std::string number = std::to_string(i);
+    if (text == camera.name || text == number) {
+      return camera.pose;
+    }
+    known += (known.empty() ? "" : ", ") + (camera.name.empty() ? number : camera.name);
+  }
+  if (text.find(',') == std::string::npos) {
+    throw InputError("--pose", "",
+                     "'" + text + "' is not a camera of the scene; " +
+                         (known.empty() ? "it has none" : "it has " + known) +
+                         ", and X,Y,Z,YAW,PITCH in metres and degrees is allowed");
+  }
+  return std::nullopt;
 }
 
 lenses::f64::EyeData eye_of(const lenses::Wearer& wearer, std::size_t side,
@@ -143,7 +164,10 @@ render::ViewSetup view_of(const RenderSetup& setup, const WornPair& pair, Side s
 
 Pose start_pose(const SceneOptions& options, const render::Scene& scene) {
   if (options.pose.empty()) {
-    return scene.start_pose.value_or(Pose{});
+    return scene.cameras.empty() ? render::framing_pose(scene) : scene.cameras.front().pose;
+  }
+  if (const std::optional<Pose> camera = pose_of_camera(options.pose, scene)) {
+    return *camera;
   }
   const auto v = numbers_of("--pose", options.pose, 5, "X,Y,Z,YAW,PITCH in metres and degrees, such as 0,1.2,0,-10,0");
   for (int i = 0; i < 3; ++i) {

@@ -33,7 +33,7 @@ struct SceneOptions {
   std::string viewing = "gaze";
   std::string gaze = "0,0";  // yaw, pitch in degrees
   std::string look_at;       // a target's name
-  std::string pose;          // x, y, z, yaw, pitch; empty: the scene's own
+  std::string pose;          // x, y, z, yaw, pitch, or a camera; empty: start_pose says
   std::string size = "1024x1024";
   double fov_deg = 60.0;
   std::string eye = "both";
@@ -59,7 +59,7 @@ struct RenderSetup {
   std::vector<render::ViewSetup> views;  // pairs x sides, pair by pair
 };
 
-// Where the head stands: --pose, else the scene's camera.
+// Where the head stands: --pose, numbers or a camera of the scene; else its first camera; else before the whole scene.
 [[nodiscard]] tracking::Pose start_pose(const SceneOptions& options, const render::Scene& scene);
 
 [[nodiscard]] render::Viewing viewing_of(const std::string& name);

@@ -27,7 +27,8 @@ void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& 
   command.add_option("--look-at", scene.look_at, "A target of the scene by name; the picture is centred on it")
       ->excludes(gaze);
   command.add_option("--pose", scene.pose,
-                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils [the scene's camera]");
+                     "X,Y,Z,YAW,PITCH (m, deg) of the midpoint between the pupils, or a camera of the scene by name\n"
+                     "or number [the first camera; without one, before the whole scene]");
 }
 
 void add_wearing_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help) {

@@ -75,9 +75,11 @@ Action add_vr_command(CLI::App& program) {
   command->add_option("--pairs", options->scene.further,
                       "FILE... of further pairs, put on in turn by the control next pair; without --compare the one\n"
                       "worn is held against the next");
-  command->add_option("--pose", options->scene.pose,
-                      "X,Y,Z,YAW,PITCH (m, deg) of the scene where the room's centre stands, its height above the\n"
-                      "floor only for a space without one [below the scene's camera]");
+  command->add_option(
+      "--pose", options->scene.pose,
+      "X,Y,Z,YAW,PITCH (m, deg) of the scene where the room's centre stands, its height above the\n"
+      "floor only for a space without one; or a camera of the scene by name or number [below the first\n"
+      "camera; without one, before the whole scene]");
   command->add_option("--mode", options->mode, "What the picture shows")
       ->check(CLI::IsMember(mode_names()))
       ->capture_default_str();

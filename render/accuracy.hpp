@@ -12,16 +12,26 @@ enum class LensForm {
   field    // chief rays precomputed on a grid over the view and interpolated (Kakimoto et al. 2007, 2010)
 };
 
+// Whether the rays of a tile of 8 x 8 pixels may be cubics between 16 of them: where those run so smoothly that none is
+// off by more than 1e-4 pixels and 0.005 D, on devices where that pays (lens_forms/tile_cubics.hpp). Everywhere else
+// each pixel's ray is traced.
+enum class TileCubics {
+  never,
+  in_pictures,  // not in maps, and not where wavefronts are kept: those are looked at for their figures
+  always
+};
+
 // Rays at the edges of things, and samples of mode dof, go through the lens in the same form, but for what is
 // interpolated between chief rays (field, spacing): there they pass the exact lens. In double precision are chief rays
 // and samples.
 struct LensAccuracy {
   LensForm form = LensForm::exact;
-  int facets = 0;          // mesh: triangles of each surface on the lens's disc, 8 or more
-  int field_side = 0;      // field: precomputed rays along each side of the view, 2 or more
-  int iterations = 0;      // steps of Newton's method for a surface, up to 8; 0: until they settle
-  int spacing = 1;         // exact: pixels between rays through the lens, those between interpolated; 1: every pixel
-  bool in_double = false;  // exact: surfaces and refraction in double precision on the device
+  int facets = 0;      // mesh: triangles of each surface on the lens's disc, 8 or more
+  int field_side = 0;  // field: precomputed rays along each side of the view, 2 or more
+  int iterations = 0;  // steps of Newton's method for a surface, up to 8; 0: until they settle
+  int spacing = 1;     // exact: pixels between rays through the lens, those between interpolated; 1: every pixel
+  TileCubics cubics = TileCubics::in_pictures;  // exact, with a ray a pixel
+  bool in_double = false;                       // exact: surfaces and refraction in double precision on the device
 
   // std::invalid_argument for what no renderer can do.
   void validate() const;

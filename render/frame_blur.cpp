@@ -61,6 +61,7 @@ void FrameJob::empty_blur_lists(vk::Commands& commands) {
   commands.barrier();
   const std::array<std::uint32_t, 4> no_groups{0, tile_groups(data_.size.y), 1, 0};
   commands.update(out_.blur_wide, std::as_bytes(std::span(no_groups)));
+  commands.fill_zero(out_.blur_sources);
   empty_list(commands, out_.blur_layered);
   empty_list(commands, out_.blur_wide_layered);
   empty_list(commands, out_.blur_blurred);
@@ -73,11 +74,13 @@ void FrameJob::blur_tiles(vk::Commands& commands, const BlurVariant& variant, co
   BlurVariant wide = variant;
   wide.wide = true;
   commands.barrier();
-  dispatch_squares(commands, kernels_.get(Stage::blur_reach, variant),
-                   {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.blur_wide, &out_.blur_layered,
-                    &out_.blur_blurred, &out_.blur_narrow, &out_.blur_squared, &out_.blur_wide_layered},
-                   gpu::kBlurTile);
-  dispatch_list(commands, kernels_.get(Stage::blur_levels, variant), {&out_.pixels, &out_.blur_levels}, out_.blur_wide);
+  dispatch_squares(
+      commands, kernels_.get(Stage::blur_reach, variant),
+      {&out_.pixels, &out_.blur_tiles, &out_.blur_reaches, &out_.blur_wide, &out_.blur_layered, &out_.blur_blurred,
+       &out_.blur_narrow, &out_.blur_squared, &out_.blur_wide_layered, &out_.blur_sources},
+      gpu::kBlurTile);
+  dispatch_list(commands, kernels_.get(Stage::blur_levels, variant),
+                {&out_.pixels, &out_.blur_levels, &out_.blur_wide, &out_.blur_sources}, out_.blur_wide);
   commands.barrier();
   if (variant.rate > 1) {
     dispatch_list(commands, kernels_.get(Stage::blur_squares, wide),

@@ -9,6 +9,7 @@
 #include "render/frame_blur.hpp"
 #include "render/gpu_tracer.hpp"
 #include "render/lens_forms/double_view.hpp"
+#include "render/lens_forms/tile_cubics.hpp"
 #include "render/map_range.hpp"
 #include "render/sample_point.hpp"
 #include "render/shown_tiles.hpp"
@@ -55,12 +56,16 @@ bool keeps_transfer(const LensAccuracy& lens) {
 FrameBuffers::Size buffers_for(const FrameConfig& config, const std::vector<ViewSetup>& views, Traversal traversal) {
   const std::size_t pixels = static_cast<std::size_t>(config.width) * static_cast<std::size_t>(config.height);
   const bool transfers = keeps_transfer(config.accuracy.lens);
+  const bool cubic = may_be_cubic(config, views, traversal);
+  const CornerGrid corners = cubic ? tile_corner_grid(config.width, config.height)
+                                   : corner_grid(config.accuracy.lens, config.width, config.height);
   return {.pixels = pixels * views.size(),
           .wavefront = keeps_wavefront(config, views),
           .sums = config.mode == Mode::dof,
           .hits = traversal != Traversal::per_ray || config.mode == Mode::dof || transfers,
           .transfers = transfers,
-          .corner_rays = corner_grid(config.accuracy.lens, config.width, config.height).rays() * views.size(),
+          .corner_rays = corners.rays() * views.size(),
+          .cubic_tiles = cubic ? listed_tile_words(config.width, config.height) * views.size() : 0,
           .blur_tiles = config.mode == Mode::adof ? blur_tiles(config.width, config.height) : 0};
 }
 
@@ -97,6 +102,11 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   variant_.keep_transfer = variant_.surface_kinds != 0 && keeps_transfer(config.accuracy.lens);
   if (variant_.surface_kinds == 0) {
     corners_ = {};  // nothing to interpolate
+  }
+  if (may_be_cubic(config, views, traversal) && can_be_cubic(device.limits(), variant_.surface_kinds)) {
+    corners_ = tile_corner_grid(config.width, config.height);
+    variant_.cubic_rays = true;
+    no_tiles_ = filled_buffer(device, std::vector<std::uint32_t>(out.size.cubic_tiles, kNoTile));
   }
   if (config.accuracy.lens.in_double && variant_.surface_kinds != 0) {
     if (!device.limits().has_float64) {
@@ -175,9 +185,12 @@ void FrameJob::record_trace(vk::Commands& commands) {
     if (variant_.hits_known) {
       find_hits(commands);
     }
-    trace_with(commands, Stage::found,
-               {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.ray_origins, &out_.ray_directions,
-                &out_.transfers});
+    const Buffers buffers{&out_.pixels,         &out_.keys,      &out_.wavefronts, &out_.hits,        &out_.ray_origins,
+                          &out_.ray_directions, &out_.transfers, &out_.corners,    &out_.smooth_tiles};
+    trace_with(commands, Stage::found, buffers);
+    if (variant_.cubic_rays) {
+      dispatch_rough(commands, Stage::found, with_scene(buffers));
+    }
   }
   commands.timestamp("trace");
 }
@@ -186,11 +199,20 @@ void FrameJob::record_trace(vk::Commands& commands) {
 void FrameJob::aim(vk::Commands& commands) {
   const Buffers buffers =
       with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.wavefronts, &out_.transfers});
+  if (variant_.cubic_rays) {
+    empty_rough_lists(commands);
+  }
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     empty_list(commands, out_.list);
     commands.barrier();
     if (corners_.rays() > 0 && !variant_.sampled) {
-      aim_between_corners(commands);
+      trace_corners(commands);
+    }
+    if (variant_.cubic_rays) {
+      aim_cubics(commands, buffers);
+    } else if (corners_.rays() > 0 && !variant_.sampled) {
+      dispatch_view(commands, kernels_.get(Stage::between, variant_),
+                    with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.corners, &out_.transfers}));
     } else if (double_views_) {
       dispatch_view(commands, kernels_.get(Stage::rays_double, variant_),
                     {&*double_table_, &*double_views_, &out_.ray_origins, &out_.ray_directions, &out_.transfers,
@@ -207,15 +229,37 @@ void FrameJob::aim(vk::Commands& commands) {
   commands.timestamp("rays");
 }
 
-void FrameJob::aim_between_corners(vk::Commands& commands) {
+void FrameJob::trace_corners(vk::Commands& commands) {
   if (trace_corners_) {
     const auto groups = [](int corners) { return (static_cast<std::uint32_t>(corners) + kGroup - 1) / kGroup; };
-    commands.dispatch(kernels_.get(Stage::corners, variant_), with_scene({&out_.corners}), vk::bytes_of(data_),
-                      groups(corners_.count.x), groups(corners_.count.y));
+    const Buffers buffers = with_scene({&out_.corners, &out_.list});
+    commands.dispatch(kernels_.get(Stage::corners, variant_), buffers, vk::bytes_of(data_), groups(corners_.count.x),
+                      groups(corners_.count.y));
+    commands.barrier();
+    dispatch_list(commands, kernels_.get(Stage::unsettled_corners, variant_), buffers, out_.list);
+    commands.barrier();
+    empty_list(commands, out_.list);
     commands.barrier();
   }
-  dispatch_view(commands, kernels_.get(Stage::between, variant_),
-                with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.corners, &out_.transfers}));
+}
+
+void FrameJob::empty_rough_lists(vk::Commands& commands) {
+  std::array<glm::uvec4, gpu::kMostViews> none;
+  none.fill({0, 0, 1, 0});
+  commands.update(out_.rough_counts, std::as_bytes(std::span(none)));
+  commands.copy(*no_tiles_, out_.rough_tiles, no_tiles_->bytes());
+}
+
+// Smooth tiles are left to the kernels that take up their rays.
+void FrameJob::aim_cubics(vk::Commands& commands, const Buffers& buffers) {
+  const auto groups = [](int pixels) {
+    return (static_cast<std::uint32_t>(pixels) + kGroup * kShownTile - 1) / (kGroup * kShownTile);
+  };
+  commands.dispatch(kernels_.get(Stage::find_rough, variant_),
+                    {&out_.corners, &out_.smooth_tiles, &out_.rough_tiles, &out_.rough_counts, &out_.shown_tiles},
+                    vk::bytes_of(data_), groups(data_.size.x), groups(data_.size.y));
+  commands.barrier();
+  dispatch_rough_view(commands, Stage::rays, buffers);
 }
 
 void FrameJob::find_hits(vk::Commands& commands) {
@@ -225,9 +269,13 @@ void FrameJob::find_hits(vk::Commands& commands) {
     dispatch(commands, kernels_.get(Stage::ray_query, variant_),
              with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list, accelerated_}));
   } else {
-    dispatch(
-        commands, kernels_.get(Stage::tile, variant_),
-        {&out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list});
+    const Buffers buffers{
+        &out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list,
+        &out_.ray_origins, &out_.ray_directions, &out_.corners,      &out_.smooth_tiles,    &views_};
+    dispatch(commands, kernels_.get(Stage::tile, variant_), buffers);
+    if (variant_.cubic_rays) {
+      dispatch_rough(commands, Stage::tile, buffers);
+    }
   }
   commands.barrier();
   dispatch_list(commands, kernels_.get(Stage::left_out, variant_),
@@ -316,6 +364,22 @@ void FrameJob::dispatch_tiles(vk::Commands& commands, const vk::Kernel& kernel, 
 void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const Buffers& buffers) {
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
     dispatch_view(commands, kernel, buffers);
+  }
+}
+
+// Those of the view's tiles whose rays are no cubics, one ray a pixel.
+void FrameJob::dispatch_rough_view(vk::Commands& commands, Stage stage, Buffers buffers) {
+  TraceVariant rough = variant_;
+  rough.cubic_rays = false;
+  rough.listed_tiles = true;
+  buffers.push_back(&out_.rough_tiles);
+  commands.dispatch_indirect(kernels_.get(stage, rough), buffers, vk::bytes_of(data_), out_.rough_counts,
+                             static_cast<std::size_t>(data_.view.x) * kRoughCountsBytes);
+}
+
+void FrameJob::dispatch_rough(vk::Commands& commands, Stage stage, const Buffers& buffers) {
+  for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
+    dispatch_rough_view(commands, stage, buffers);
   }
 }
 

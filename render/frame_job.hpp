@@ -40,7 +40,11 @@ class FrameJob {
   using Buffers = std::vector<const vk::Buffer*>;
 
   void aim(vk::Commands& commands);
-  void aim_between_corners(vk::Commands& commands);
+  void trace_corners(vk::Commands& commands);
+  void aim_cubics(vk::Commands& commands, const Buffers& buffers);
+  void empty_rough_lists(vk::Commands& commands);
+  void dispatch_rough_view(vk::Commands& commands, Stage stage, Buffers buffers);
+  void dispatch_rough(vk::Commands& commands, Stage stage, const Buffers& buffers);
   void find_hits(vk::Commands& commands);
   void empty_blur_lists(vk::Commands& commands);
   void blur_tiles(vk::Commands& commands, const BlurVariant& variant, const vk::Buffer& blurred);
@@ -64,7 +68,8 @@ class FrameJob {
   vk::Buffer table_, views_;
   std::optional<vk::Buffer> double_table_, double_views_;  // where the lens is traced in double precision
   CornerGrid corners_;
-  bool trace_corners_ = false;  // of each frame anew; a field's may be known
+  bool trace_corners_ = false;          // of each frame anew; a field's may be known
+  std::optional<vk::Buffer> no_tiles_;  // what lists of rough tiles begin as, where smooth tiles' rays are cubics
   TraceVariant variant_;
   gpu::FrameData data_{};
   std::vector<float> half_pupil_px_;  // of each view: what the pupil's half spans at a dioptre, px

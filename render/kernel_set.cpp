@@ -22,6 +22,7 @@
 #include "shaders/edges.hpp"
 #include "shaders/encode.hpp"
 #include "shaders/find_edges.hpp"
+#include "shaders/find_rough.hpp"
 #include "shaders/found.hpp"
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
@@ -30,6 +31,7 @@
 #include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
 #include "shaders/unsettled.hpp"
+#include "shaders/unsettled_corners.hpp"
 
 namespace render {
 namespace {
@@ -53,6 +55,7 @@ constexpr std::size_t kColumnsAt = 11;  // shaders/columns.glsl
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 constexpr std::size_t kListedTilesAt = 10;  // shaders/group.glsl
+constexpr std::size_t kCubicRaysAt = 12;    // shaders/tile.comp.glsl, shaders/found.comp.glsl
 
 struct Recipe {
   const char* name;
@@ -72,15 +75,23 @@ Recipe recipe_of(Stage stage) {
               {texel_rgba32ui, uniform_buffer, storage_buffer, storage_buffer, storage_buffer, texel_rgba32f},
               Constants::aim};
     case Stage::corners:
-      return {"corners", shaders::corners, scene_and(1), Constants::scene};
+      return {"corners", shaders::corners, scene_and(2), Constants::scene};
+    case Stage::unsettled_corners:
+      return {"unsettled_corners", shaders::unsettled_corners, scene_and(2), Constants::scene};
     case Stage::between:
       return {"between", shaders::between, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::scene};
     case Stage::unsettled:
       return {"unsettled", shaders::unsettled, scene_and(3, {texel_rgba32f, storage_buffer}), Constants::aim};
+    case Stage::find_rough:
+      return {"find_rough",
+              shaders::find_rough,
+              {texel_rgba32f, storage_buffer, storage_buffer, storage_buffer},
+              Constants::none};
     case Stage::tile:
       return {"tile",
               shaders::tile,
-              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
+              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer,
+               storage_buffer, storage_buffer, texel_rgba32f, texel_r32ui, texel_rgba32ui},
               Constants::lanes_and_features};
     case Stage::ray_query:
       return {"ray_query", shaders::ray_query,
@@ -92,7 +103,8 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}),
+      return {"found", shaders::found,
+              scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f, texel_rgba32f, texel_r32ui}),
               Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
@@ -124,12 +136,15 @@ Recipe recipe_of(Stage stage) {
       return {"blur_reach",
               shaders::blur_reach,
               {texel_rgba32ui, texel_rgba32f, storage_buffer, texel_r32ui, storage_buffer, storage_buffer,
-               storage_buffer, storage_buffer, storage_buffer},
+               storage_buffer, storage_buffer, storage_buffer, storage_buffer},
               Constants::blur};
     case Stage::blur_narrow:
       return {"blur_narrow", shaders::blur_narrow, {texel_rgba32ui, storage_buffer, texel_r32ui}, Constants::blur};
     case Stage::blur_levels:
-      return {"blur_levels", shaders::blur_levels, {texel_rgba32ui, storage_buffer}, Constants::blur};
+      return {"blur_levels",
+              shaders::blur_levels,
+              {texel_rgba32ui, storage_buffer, texel_r32ui, texel_r32ui},
+              Constants::blur};
     case Stage::blur_layers:
       return {"blur_layers",
               shaders::blur_layers,
@@ -150,6 +165,7 @@ bool goes_by_tiles(Stage stage) {
     case Stage::rays:
     case Stage::rays_double:
     case Stage::between:
+    case Stage::find_rough:
     case Stage::tile:
     case Stage::ray_query:
     case Stage::chief:
@@ -204,6 +220,10 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   if (variant.listed_tiles && goes_by_tiles(stage)) {
     key[kListedTilesAt] = 1U;
     count = std::max(count, kListedTilesAt + 1);
+  }
+  if (variant.cubic_rays && (stage == Stage::tile || stage == Stage::found)) {
+    key[kCubicRaysAt] = 1U;
+    count = kCubicRaysAt + 1;
   }
   return get(stage, key, count);
 }

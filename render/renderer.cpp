@@ -200,13 +200,21 @@ RenderedFrame Renderer::render(const lenses::LensModel& lenses, const std::vecto
   return all;
 }
 
-// Drivers compile at the first dispatch, some of them: so it takes a frame, if a small one.
+// Drivers compile at the first dispatch, some of them: so it takes a frame, if a small one. Its pixels are as large as
+// those of the picture: which kernels draw it may depend on them (lens_forms/tile_cubics.hpp).
 void Renderer::prepare(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,
                        const FrameConfig& config) {
+  constexpr int kSide = 8;
   FrameConfig small = config;
-  small.width = small.height = 8;
+  small.width = small.height = kSide;
   small.samples = 1;
-  (void)render(lenses, views, small);
+  std::vector<ViewSetup> parts = views;
+  for (ViewSetup& view : parts) {
+    const double across = static_cast<double>(kSide) / config.width, up = static_cast<double>(kSide) / config.height;
+    const tracking::FieldOfView& fov = view.view.fov;
+    view.view.fov = {fov.tan_left * across, fov.tan_right * across, fov.tan_down * up, fov.tan_up * up};
+  }
+  (void)render(lenses, parts, small);
 }
 
 RendererParts Renderer::parts(const lenses::LensModel& lenses, const std::vector<ViewSetup>& views,

@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::uint32_t kMostGroups = 65535;  // in x that every device allows
 constexpr std::size_t kPadding = 16;          // beyond the last tile: rows of groups and groups of tiles are full
-constexpr std::uint32_t kNoTile = 0xffffffffU;
 
 int along(int pixels) {
   return (pixels + kShownTile - 1) / kShownTile;

@@ -12,7 +12,8 @@
 
 namespace render {
 
-constexpr int kShownTile = 8;  // px a side
+constexpr int kShownTile = 8;                   // px a side
+constexpr std::uint32_t kNoTile = 0xffffffffU;  // lies beyond every picture
 
 struct TileLists {
   // A tile's column | row << 16. Those of which a pixel is seen come in the order in which the device's threads share

@@ -26,6 +26,11 @@ CornerGrid corner_grid(const LensAccuracy& lens, int width, int height) {
   return {};
 }
 
+CornerGrid tile_corner_grid(int width, int height) {
+  const auto along = [](int pixels) { return 3 * ((pixels + 7) / 8) + 1; };
+  return {glm::dvec2(8.0 / 3.0), {along(width), along(height)}};
+}
+
 std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& grid,
                                   const std::vector<gpu::ViewData>& views, const std::vector<glm::vec4>& table) {
   std::vector<std::byte> key;

@@ -24,6 +24,9 @@ struct CornerGrid {
 
 [[nodiscard]] CornerGrid corner_grid(const LensAccuracy& lens, int width, int height);
 
+// A corner every 8/3 pixels, from the edge of one tile of 8 x 8 pixels to the next.
+[[nodiscard]] CornerGrid tile_corner_grid(int width, int height);
+
 // All that the rays at a field's corners depend on: two frames with the same key have the same field.
 [[nodiscard]] std::vector<std::byte> corner_key(const LensAccuracy& lens, const CornerGrid& grid,
                                                 const std::vector<gpu::ViewData>& views,

@@ -18,8 +18,10 @@ struct EmbreeInner : EmbreeNode {
   EmbreeNode* child[2];
 };
 
+// As many numbers of boxes as its count says stand behind it.
 struct EmbreeLeaf : EmbreeNode {
-  std::uint32_t boxes[RTC_BUILD_MAX_PRIMITIVES_PER_LEAF];
+  [[nodiscard]] std::uint32_t* boxes() { return reinterpret_cast<std::uint32_t*>(this + 1); }
+  [[nodiscard]] const std::uint32_t* boxes() const { return reinterpret_cast<const std::uint32_t*>(this + 1); }
 };
 
 void* create_inner(RTCThreadLocalAllocator allocator, unsigned, void*) {
@@ -38,11 +40,12 @@ void set_bounds(void* node, const RTCBounds** bounds, unsigned, void*) {
 }
 
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count, void*) {
-  auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(EmbreeLeaf), 16)) EmbreeLeaf{};
+  const std::size_t bytes = sizeof(EmbreeLeaf) + count * sizeof(std::uint32_t);
+  auto* leaf = new (rtcThreadLocalAlloc(allocator, bytes, alignof(EmbreeLeaf))) EmbreeLeaf{};
   leaf->count = static_cast<std::uint32_t>(count);
-  for (std::size_t i = 0; i < count; ++i) leaf->boxes[i] = primitives[i].primID;
+  for (std::size_t i = 0; i < count; ++i) leaf->boxes()[i] = primitives[i].primID;
   // The builder partitions in parallel, so the order inside a leaf is not repeatable by itself.
-  std::sort(leaf->boxes, leaf->boxes + count);
+  std::sort(leaf->boxes(), leaf->boxes() + count);
   return static_cast<EmbreeNode*>(leaf);
 }
 
@@ -68,7 +71,7 @@ std::uint32_t append(BinaryBvh& bvh, const EmbreeNode& source, const Box& box) {
     const auto& leaf = static_cast<const EmbreeLeaf&>(source);
     bvh.nodes[index].first = static_cast<std::uint32_t>(bvh.order.size());
     bvh.nodes[index].count = leaf.count;
-    bvh.order.insert(bvh.order.end(), leaf.boxes, leaf.boxes + leaf.count);
+    bvh.order.insert(bvh.order.end(), leaf.boxes(), leaf.boxes() + leaf.count);
     return index;
   }
   const auto& inner = static_cast<const EmbreeInner&>(source);
@@ -83,7 +86,8 @@ std::uint32_t append(BinaryBvh& bvh, const EmbreeNode& source, const Box& box) {
 
 }  // namespace
 
-BinaryBvh build_binary_bvh(std::span<const Box> boxes, std::uint32_t max_leaf, std::uint32_t max_depth) {
+BinaryBvh build_binary_bvh(std::span<const Box> boxes, std::uint32_t max_leaf, std::uint32_t block,
+                           std::uint32_t max_depth) {
   const EmbreeDevice device = make_embree_device();
   const EmbreeBvh embree(rtcNewBVH(device.get()));
   check_embree(device.get(), "rtcNewBVH");
@@ -94,6 +98,7 @@ BinaryBvh build_binary_bvh(std::span<const Box> boxes, std::uint32_t max_leaf, s
   arguments.maxBranchingFactor = 2;
   arguments.maxDepth = max_depth;
   arguments.maxLeafSize = max_leaf;
+  arguments.sahBlockSize = block;
   arguments.bvh = embree.get();
   arguments.primitives = primitives.data();
   arguments.primitiveCount = primitives.size();

@@ -24,7 +24,9 @@ struct BinaryBvh {
   std::vector<std::uint32_t> order;  // indices into the boxes, leaf by leaf
 };
 
-// boxes: at least one. A leaf holds at most max_leaf of them; no path is longer than max_depth inner nodes.
-[[nodiscard]] BinaryBvh build_binary_bvh(std::span<const Box> boxes, std::uint32_t max_leaf, std::uint32_t max_depth);
+// boxes: at least one. A leaf holds at most max_leaf of them; no path is longer than max_depth inner nodes. Boxes are
+// counted in blocks, so that splits fall where blocks are full.
+[[nodiscard]] BinaryBvh build_binary_bvh(std::span<const Box> boxes, std::uint32_t max_leaf, std::uint32_t block,
+                                         std::uint32_t max_depth);
 
 }  // namespace render

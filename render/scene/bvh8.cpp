@@ -2,6 +2,8 @@
 
 #include <array>
 #include <bit>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <span>
 
@@ -10,29 +12,35 @@
 namespace render {
 namespace {
 
-// The cost of a leaf where a node costs 1. A tile pays for a leaf as a whole, whatever it holds: its triangles are
-// tested against the tile's bounds side by side.
-constexpr float kLeafCost = 0.7F;
+// Half the surface of a box is to the square of its distance as this to one where a tile seen from there meets it as
+// often as not. Nodes visited a tile in the reading room: 21.4 by surface alone, 18.8, 17.4, 18.1 and 16.9 with 2, 4, 8
+// and 25; leaves before the cars: 8.9, and 8.3, 8.3, 8.3 and 8.7.
+constexpr float kNearness = 4.0F;
 
-float half_area(const Box& box) {
+// How often a tile seen from `viewer` meets a box: always from within, by its surface over the square of its distance
+// from afar, where this is the surface area heuristic again. That alone takes a view from within for one from outside.
+float met(const Box& box, const glm::vec3& viewer) {
   const glm::vec3 d = box.high - box.low;
-  return d.x * d.y + d.y * d.z + d.z * d.x;
+  const float half_area = d.x * d.y + d.y * d.z + d.z * d.x;
+  const glm::vec3 apart = glm::max(glm::max(box.low - viewer, viewer - box.high), glm::vec3(0.0F));
+  return half_area / (half_area + kNearness * glm::dot(apart, apart));
 }
 
 // What is best for one node of the binary tree when its subtree may take 1, 2, ... 8 places in a wide node.
 struct Choice {
-  std::array<float, kBvhWide> cost{};            // [places - 1], times the area
+  std::array<float, kBvhWide> cost{};            // [places - 1]: nodes that a tile visits
   std::array<std::uint8_t, kBvhWide> to_left{};  // of these places, how many the left child gets; 0: take only one
   std::uint32_t first = 0, count = 0;            // triangles of the whole subtree
-  bool leaf = false;                             // in one place it is best a leaf
-  std::uint8_t inside = 1;                       // as a wide node: how many of the eight its left child gets
+  bool leaf = false;
+  std::uint8_t inside = 1;  // as a wide node: how many of the eight its left child gets
 };
 
 // Dynamic programming over the binary tree, as in Ylitie, Karras and Laine, Efficient incoherent ray traversal on GPUs
 // through compressed wide BVHs (2017), section 3.
 class WideTree {
  public:
-  explicit WideTree(const BinaryBvh& binary) : binary_(binary), choices_(binary.nodes.size()) {
+  WideTree(const BinaryBvh& binary, const glm::vec3& viewer)
+      : binary_(binary), viewer_(viewer), choices_(binary.nodes.size()) {
     for (std::size_t node = binary.nodes.size(); node-- > 0;) {  // children stand behind their parents
       choose(node);
     }
@@ -61,23 +69,18 @@ class WideTree {
   void choose(std::size_t index) {
     const BinaryNode& node = binary_.nodes[index];
     Choice& choice = choices_[index];
-    const float area = half_area(node.box);
-    if (node.count != 0) {
-      choice.first = node.first;
-      choice.count = node.count;
-      choice.leaf = true;
-      choice.cost.fill(area * kLeafCost);
+    const bool inner = node.count == 0;
+    choice.first = inner ? choices_[node.left].first : node.first;
+    choice.count = inner ? choices_[node.left].count + choices_[node.right].count : node.count;
+    // A tile pays for a leaf as a whole, whatever it holds: its triangles are tested against the tile's bounds side by
+    // side. So leaves are as full as the tree lets them be, and cost the same whatever is chosen above them.
+    choice.leaf = choice.count <= kBvhMaxLeafTriangles;
+    if (choice.leaf) {
       return;
     }
-    choice.first = choices_[node.left].first;
-    choice.count = choices_[node.left].count + choices_[node.right].count;
     const auto [inside_cost, inside] = best_split(index, kBvhWide);
     choice.inside = inside;
-    choice.cost[0] = area + inside_cost;
-    if (choice.count <= kBvhMaxLeafTriangles && area * kLeafCost <= choice.cost[0]) {
-      choice.leaf = true;
-      choice.cost[0] = area * kLeafCost;
-    }
+    choice.cost[0] = met(node.box, viewer_) + inside_cost;
     for (std::size_t places = 2; places <= kBvhWide; ++places) {
       const auto [cost, share] = best_split(index, places);
       const bool split = cost < choice.cost[0];
@@ -128,14 +131,15 @@ class WideTree {
   }
 
   const BinaryBvh& binary_;
+  glm::vec3 viewer_;
   std::vector<Choice> choices_;
   Bvh8 out_;
 };
 
 }  // namespace
 
-Bvh8 collapse_to_eight(const BinaryBvh& binary) {
-  return WideTree(binary).emit();
+Bvh8 collapse_to_eight(const BinaryBvh& binary, const glm::vec3& viewer) {
+  return WideTree(binary, viewer).emit();
 }
 
 }  // namespace render

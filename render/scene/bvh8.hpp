@@ -6,8 +6,8 @@
 
 namespace render {
 
-// The eight-wide tree of least expected cost by the surface area heuristic, leaves of up to kBvhMaxLeafTriangles. A
-// leaf's first triangle is its place in binary.order.
-[[nodiscard]] Bvh8 collapse_to_eight(const BinaryBvh& binary);
+// The eight-wide tree of fewest visits expected of tiles that are seen from around `viewer`, leaves of up to
+// kBvhMaxLeafTriangles. A leaf's first triangle is its place in binary.order.
+[[nodiscard]] Bvh8 collapse_to_eight(const BinaryBvh& binary, const glm::vec3& viewer);
 
 }  // namespace render

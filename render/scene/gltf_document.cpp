@@ -7,7 +7,10 @@
 #include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "render/scene/gltf_files.hpp"
+#include "render/scene/gltf_json.hpp"
 #include "render/scene/gltf_shape.hpp"
 #include "tracking/input_error.hpp"
 
@@ -18,93 +21,11 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t kLargestFile = 0xFFFFFFFF;  // tinygltf and the binary container count in 32 bits
-// Far beyond any real file; tinygltf descends into extras by recursion.
-constexpr int kDeepestJson = 64;
-
 constexpr std::array kExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit",
                                     "KHR_mesh_quantization", "KHR_texture_transform"};
 
-// For messages: no control characters, and not a whole data URI.
-std::string one_line(std::string text) {
-  if (text.size() > 300) text = text.substr(0, 300) + "...";
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
-
-// Empty and an error number when it cannot be read.
-Bytes read_whole(const fs::path& path, int& error) {
-  struct Close {
-    void operator()(std::FILE* f) const { (void)std::fclose(f); }
-  };
-  error = 0;
-  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-  if (!file) {
-    error = errno;
-    return {};
-  }
-  Bytes bytes;
-  std::vector<std::uint8_t> block(1U << 20);
-  for (;;) {
-    errno = 0;
-    const std::size_t got = std::fread(block.data(), 1, block.size(), file.get());
-    bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(got));
-    if (std::ferror(file.get()) != 0) error = errno != 0 ? errno : EIO;
-    if (bytes.size() > kLargestFile) error = EFBIG;
-    if (error != 0) return {};
-    if (got < block.size()) return bytes;
-  }
-}
-
-bool is_inside(const fs::path& folder, const fs::path& path) {
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(path, error);
-  if (error) return false;
-  const fs::path relative = real.lexically_relative(folder);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
-// Percent-decoded; empty when it is not a plain relative path inside the folder.
-fs::path local_path(const std::string& uri) {
-  std::string name;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    const auto is_hex = [&](std::size_t at) {
-      return at < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[at]));
-    };
-    if (uri[i] == '%' && is_hex(i + 1) && is_hex(i + 2)) {
-      name += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      name += uri[i];
-    }
-  }
-  const fs::path path(name);
-  const bool climbs = std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
-  const bool foreign = name.find_first_of(std::string(":\\\0", 3)) != std::string::npos;
-  return path.is_absolute() || climbs || foreign ? fs::path() : path;
-}
-
 bool is_data_uri(const std::string& uri) {
   return uri.starts_with("data:");
-}
-
-// The file system that tinygltf sees: regular files in the scene's folder.
-bool lent_exists(const std::string& path, void* folder) {
-  std::error_code error;
-  return fs::is_regular_file(path, error) && is_inside(*static_cast<const fs::path*>(folder), path);
-}
-
-std::string lent_expand(const std::string& path, void*) {
-  return path;
-}
-
-bool lent_read(std::vector<unsigned char>* out, std::string* message, const std::string& path, void* folder) {
-  int error = ENOENT;
-  if (lent_exists(path, folder)) *out = read_whole(path, error);
-  if (error != 0 && message != nullptr) *message += std::strerror(error);
-  return error == 0;
 }
 
 // Keeps a data URI's bytes; a buffer view's range is not checked yet, so its bytes are left alone.
@@ -148,22 +69,6 @@ std::string_view json_chunk(const std::string& file, const Bytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()) + 20, word_at(bytes, 12)};
 }
 
-json parse_json(const std::string& file, std::string_view text) {
-  const auto bounded = [&](int depth, json::parse_event_t, json&) {
-    if (depth > kDeepestJson) throw tracking::InputError(file, "", "nests deeper than 64 levels; 64 are allowed");
-    return true;
-  };
-  try {
-    return json::parse(text, bounded);
-  } catch (const json::exception& error) {
-    // Without the library's own name for it, which stands in brackets.
-    const std::string what = error.what();
-    const std::size_t name = what.find("] ");
-    const std::string said = what.substr(name == std::string::npos ? 0 : name + 2);
-    throw tracking::InputError(file, "", "is not valid JSON: " + one_line(said) + "; a .gltf or .glb file is expected");
-  }
-}
-
 // Before anything else is found wrong with a file of another version. glTF 2.0, section 3.2: what a minor version adds
 // may be passed over unless minVersion asks for it.
 void check_version(const std::string& file, const json& root) {
@@ -192,9 +97,37 @@ void check_extensions(const std::string& file, const json& root) {
   }
 }
 
-// External buffers must exist and have their size, so that tinygltf has no reason to refuse them without a field.
-void check_buffers(const GltfDocument& document, const json& root, bool binary) {
-  const json buffers = root.value("buffers", json::array());
+// An empty pair of braces becomes a structure of up to kilobytes.
+void check_lists(const std::string& file, const json& root) {
+  constexpr std::size_t kMost = std::size_t{1} << 29;  // bytes
+  const std::pair<const char*, std::size_t> sizes[] = {
+      {"accessors", sizeof(tinygltf::Accessor)}, {"animations", sizeof(tinygltf::Animation)},
+      {"buffers", sizeof(tinygltf::Buffer)},     {"bufferViews", sizeof(tinygltf::BufferView)},
+      {"cameras", sizeof(tinygltf::Camera)},     {"images", sizeof(tinygltf::Image)},
+      {"materials", sizeof(tinygltf::Material)}, {"meshes", sizeof(tinygltf::Mesh)},
+      {"nodes", sizeof(tinygltf::Node)},         {"samplers", sizeof(tinygltf::Sampler)},
+      {"scenes", sizeof(tinygltf::Scene)},       {"skins", sizeof(tinygltf::Skin)},
+      {"textures", sizeof(tinygltf::Texture)}};
+  std::size_t bytes = 0;
+  for (const auto& [name, size] : sizes) {
+    const auto list = root.find(name);
+    if (list == root.end()) continue;
+    bytes += list->size() * size;
+    if (bytes > kMost) {
+      throw tracking::InputError(file, name,
+                                 "has " + std::to_string(list->size()) + " elements; with the other lists they take " +
+                                     std::to_string(bytes) + " bytes, of which " + std::to_string(kMost) +
+                                     " are allowed");
+    }
+  }
+}
+
+// External buffers must exist and have their size, so that tinygltf has no reason to refuse them without a field. Each
+// is kept, those that name one file too; bytes: of the scene's own file.
+void check_buffers(const GltfDocument& document, const json& root, bool binary, std::size_t bytes) {
+  const auto found = root.find("buffers");
+  if (found == root.end()) return;
+  const json& buffers = *found;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const std::string field = "buffers[" + std::to_string(i) + "]";
     const std::string uri = buffers[i].value("uri", "");
@@ -202,6 +135,12 @@ void check_buffers(const GltfDocument& document, const json& root, bool binary) 
     if (length == 0) document.fail(field + ".byteLength", "is 0; at least 1 is allowed");
     if (uri.empty() && !binary) document.fail(field + ".uri", "is missing; a .gltf file needs it");
     if (uri.empty() || is_data_uri(uri)) continue;
+    bytes += length;
+    if (bytes > kMostSceneFileBytes) {
+      document.fail(field + ".byteLength", "brings the scene to " + std::to_string(bytes) + " bytes; " +
+                                               std::to_string(kMostSceneFileBytes) +
+                                               " are allowed in all files together");
+    }
     const std::size_t size = read_external_file(document, uri, field + ".uri").size();
     if (size != length) {
       document.fail(field + ".byteLength", "is " + std::to_string(length) + ", but " + uri + " has " +
@@ -212,7 +151,7 @@ void check_buffers(const GltfDocument& document, const json& root, bool binary) 
 
 void load_model(GltfDocument& document, const Bytes& bytes) {
   tinygltf::TinyGLTF loader;
-  loader.SetFsCallbacks({lent_exists, lent_expand, lent_read, nullptr, &document.folder});
+  loader.SetFsCallbacks(lent_files(document.folder));
   loader.SetImageLoader(keep_image, nullptr);
   std::string errors, warnings;
   bool loaded = false;
@@ -275,7 +214,7 @@ std::vector<std::uint8_t> read_external_file(const GltfDocument& document, const
   Bytes bytes;
   if (fs::is_regular_file(document.folder / local, status)) bytes = read_whole(document.folder / local, error);
   if (error != 0) {
-    document.fail(field, shown + " cannot be read: " + std::strerror(error) + "; a regular file is expected");
+    document.fail(field, shown + " " + why_unreadable(error) + "; a regular file of at most 512 MiB is expected");
   }
   return bytes;
 }
@@ -295,22 +234,23 @@ void check_length(const GltfDocument& document) {
 }
 
 GltfDocument load_gltf_document(const std::string& path) {
-  GltfDocument document{path, {}, 0, {}};
+  GltfDocument document{.file = path, .folder = {}, .model = {}};
   int error = 0;
   check_length(document);
   const Bytes bytes = read_whole(path, error);
-  if (error != 0)
-    document.fail("", std::string("cannot be read: ") + std::strerror(error) + "; a .gltf or .glb file is expected");
+  if (error != 0) document.fail("", why_unreadable(error) + "; a .gltf or .glb file of at most 512 MiB is expected");
   if (bytes.empty()) document.fail("", "is empty; a .gltf or .glb file is expected");
   document.folder = fs::canonical(fs::absolute(path).parent_path());
   const bool binary = is_binary(bytes);
-  const json root =
-      parse_json(path, binary ? json_chunk(path, bytes)
-                              : std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-  check_version(path, root);
-  check_gltf_shape(root, path);
-  check_extensions(path, root);
-  check_buffers(document, root, binary);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  {
+    const json root = parse_gltf_json(path, binary ? json_chunk(path, bytes) : text);
+    check_version(path, root);
+    check_gltf_shape(root, path);
+    check_extensions(path, root);
+    check_lists(path, root);
+    check_buffers(document, root, binary, bytes.size());
+  }  // tinygltf makes a tree of its own
   load_model(document, bytes);
   check_views(document);
   return document;

@@ -16,6 +16,7 @@ struct GltfDocument {
   std::string file;                 // as the user named it, for messages
   std::filesystem::path folder;     // absolute; external files lie here or below
   mutable std::size_t decoded = 0;  // elements of accessors so far: the same ones may be asked for again and again
+  mutable std::size_t encoded = 0;  // bytes of images so far, as decoded
   tinygltf::Model model;            // images are encoded bytes (data URI), a uri, or a buffer view: none is decoded
 
   [[noreturn]] void fail(const std::string& field, const std::string& reason) const;

@@ -4,8 +4,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <set>
 
 #include "render/scene/gltf_document.hpp"
+#include "render/scene/gltf_json.hpp"
 #include "render/scene/gltf_material.hpp"
 #include "render/scene/gltf_mesh.hpp"
 #include "render/scene/gltf_nodes.hpp"
@@ -13,6 +15,9 @@
 
 namespace render {
 namespace {
+
+// Each is asked for its light at each point that is seen: many more would hold a device up for minutes.
+constexpr std::size_t kMostLights = 1024;
 
 // The way a light shines and a camera looks: local -z.
 glm::dvec3 forward(const GltfDocument& document, const PlacedNode& node) {
@@ -90,13 +95,13 @@ bool is_target(const tinygltf::Node& node) {
          node.extras.Get("target").Get<bool>();
 }
 
-void read_target(const GltfDocument& document, const PlacedNode& node, Scene& scene) {
+// names: of the targets so far.
+void read_target(const GltfDocument& document, const PlacedNode& node, std::set<std::string>& names, Scene& scene) {
   const std::string& name = document.model.nodes[static_cast<std::size_t>(node.index)].name;
   if (name.empty()) document.fail(node.field() + ".name", "is missing; a target is looked at by its name");
-  for (const Target& other : scene.targets) {
-    if (other.name == name) {
-      document.fail(node.field() + ".name", "is " + name + ", as another target's; each target needs its own name");
-    }
+  if (!names.insert(name).second) {
+    document.fail(node.field() + ".name",
+                  "is " + one_line(name) + ", as another target's; each target needs its own name");
   }
   scene.targets.push_back({name, glm::dvec3(node.world_from_node[3])});
 }
@@ -144,13 +149,22 @@ Scene read_gltf(const std::string& path) {
   scene.source = path;
   scene.environment = read_environment(document);
   const std::vector<UvSets> uv_sets = read_materials(document, scene);
+  std::set<std::string> target_names;
   for (const PlacedNode& placed : placed_nodes(document)) {
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(placed.index)];
     if (node.mesh >= 0) append_mesh(document, node.mesh, placed.world_from_node, uv_sets, scene);
-    if (node.camera >= 0 && !scene.start_pose) scene.start_pose = rigid_pose(document, placed);
-    if (is_target(node)) read_target(document, placed, scene);
+    if (node.camera >= 0) {
+      const std::string& own = document.model.cameras.at(static_cast<std::size_t>(node.camera)).name;
+      scene.cameras.push_back({node.name.empty() ? own : node.name, rigid_pose(document, placed)});
+    }
+    if (is_target(node)) read_target(document, placed, target_names, scene);
     const auto light = node.extensions.find("KHR_lights_punctual");
     if (light != node.extensions.end()) {
+      if (scene.lights.size() == kMostLights) {
+        document.fail(placed.field() + ".extensions.KHR_lights_punctual",
+                      "is light number " + std::to_string(kMostLights + 1) + "; " + std::to_string(kMostLights) +
+                          " are allowed in all");
+      }
       scene.lights.push_back(read_light(document, light->second.Get("light").GetNumberAsInt(), placed));
     }
   }

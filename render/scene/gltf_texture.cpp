@@ -13,6 +13,8 @@ namespace {
 constexpr int kLargestEdge = 16384;
 // A picture of a few kilobytes may unpack to a gigabyte; decoding takes several times an image's own size.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+// What follows a picture's end in its file is read with it, once a texture.
+constexpr std::size_t kMostEncoded = std::size_t{1} << 31;
 
 Texture::Wrap wrap_mode(const GltfDocument& document, int sampler, const char* name, int mode) {
   switch (mode) {
@@ -93,6 +95,11 @@ Texture read_texture(const GltfDocument& document, int index) {
   }
   std::string field;
   const std::vector<std::uint8_t> bytes = encoded_image(document, source.source, field);
+  document.encoded += bytes.size();
+  if (document.encoded > kMostEncoded) {
+    document.fail(field, "brings the encoded images read to " + std::to_string(document.encoded) + " bytes; " +
+                             std::to_string(kMostEncoded) + " are allowed, an image as often as textures name it");
+  }
   decode(document, bytes, field, texture);
   return texture;
 }

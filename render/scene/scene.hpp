@@ -72,6 +72,12 @@ struct Target {
   glm::dvec3 position;  // m, world
 };
 
+// Where a head may start: a glTF camera with its node's name, or its own where the node has none.
+struct Camera {
+  std::string name;
+  tracking::Pose pose;  // world from head
+};
+
 // What a ray sees that hits nothing, and the light that comes from everywhere: the asset's
 // extras.vergence = {"sky_zenith": [r,g,b], "sky_horizon": [r,g,b], "ambient": [r,g,b]}, linear radiance.
 struct Environment {
@@ -90,8 +96,13 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Light> lights;
   std::vector<Target> targets;
-  std::optional<tracking::Pose> start_pose;  // the first camera
+  std::vector<Camera> cameras;
   Environment environment;
+
+  // The first camera's.
+  [[nodiscard]] std::optional<tracking::Pose> start_pose() const {
+    return cameras.empty() ? std::nullopt : std::optional(cameras.front().pose);
+  }
 };
 
 // Reads a .gltf or .glb and checks every index, size, type, finiteness and cycle. Throws tracking::InputError{file,

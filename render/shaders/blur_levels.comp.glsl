@@ -1,9 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The picture that wide blurs gather from (frame.h), where there are any. An invocation for each tile.
+// The picture that wide blurs gather from (frame.h), where there are any, in the tiles that they reach. An invocation for
+// each tile.
 #include "render/shaders/gather.glsl"
 
 layout(std430, binding = 1) writeonly buffer Texels { uvec4 texels[]; };
+layout(binding = 2) uniform usamplerBuffer wide;     // kWidestAt
+layout(binding = 3) uniform usamplerBuffer sources;  // blur_reach
 
 struct Mean {
   vec3 radiance;
@@ -62,10 +65,13 @@ void main() {
   if (any(greaterThanEqual(tile, tile_count()))) {
     return;
   }
+  float most = kernel_reach() * uintBitsToFloat(texelFetch(wide, int(kWidestAt)).x);
+  bool reached = all_are_sources(most) || texelFetch(sources, tile.y * tile_count().x + tile.x).x != 0u;
+  int parts = reached ? 4 : 0;  // loops end early on a software device too
   Mean eight = Mean(vec3(0.0), 0.0);
-  for (int four_at = 0; four_at < 4; ++four_at) {
+  for (int four_at = 0; four_at < parts; ++four_at) {
     Mean four = Mean(vec3(0.0), 0.0);
-    for (int two_at = 0; two_at < 4; ++two_at) {
+    for (int two_at = 0; two_at < parts; ++two_at) {
       ivec2 corner = kBlurTile * tile + 4 * ivec2(four_at & 1, four_at >> 1) + 2 * ivec2(two_at & 1, two_at >> 1);
       Tap taps[4];
       for (int k = 0; k < 4; ++k) {
@@ -77,5 +83,7 @@ void main() {
     leave_level(2, 2 * tile + ivec2(four_at & 1, four_at >> 1), four);
     eight = Mean(eight.radiance + four.radiance, eight.count + four.count);
   }
-  leave_level(3, tile, eight);
+  if (reached) {
+    leave_level(3, tile, eight);
+  }
 }

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Which tiles see depth within reach of a blur: those are listed to get their layers apart; which of the others are
-// blurred; and which share gathers. A tile looks at all that its own blur reaches and all whose blur reaches it.
+// blurred; which share gathers; and which have something that wide blurs gather. A tile looks at all that its own blur
+// reaches and all whose blur reaches it.
 #include "render/shaders/gather.glsl"
 
 layout(binding = 1) uniform samplerBuffer tiles;
@@ -12,6 +13,7 @@ layout(std430, binding = 5) buffer Blurred { uint blurred[]; };
 layout(std430, binding = 6) buffer Narrow { uint narrow[]; };
 layout(std430, binding = 8) buffer WideLayered { uint wide_layered[]; };
 layout(std430, binding = 7) buffer Squared { uint squared[]; };
+layout(std430, binding = 9) writeonly buffer Sources { uint sources[]; };  // 1: needs its part of the wide picture
 
 // Appends to a list of tiles, of which a workgroup takes `at_once`: kListAcross workgroups, then a row more of them.
 #define APPEND_TILE(list, item, at_once)             \
@@ -27,6 +29,17 @@ layout(std430, binding = 7) buffer Squared { uint squared[]; };
       }                                              \
     }                                                \
   }
+
+void mark_sources(ivec2 tile, int around) {
+  ivec2 count = tile_count();
+  ivec2 first = max(tile - around, ivec2(0));
+  ivec2 last = around < 0 ? ivec2(-1) : min(tile + around, count - 1);
+  for (int y = first.y; y <= last.y; ++y) {
+    for (int x = first.x; x <= last.x; ++x) {
+      sources[y * count.x + x] = 1u;
+    }
+  }
+}
 
 void main() {
   ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
@@ -61,8 +74,10 @@ void main() {
   bool listed = reach > 0.0 || (own.x >= frame.limits.x && nearest - farthest > apart);
   reaches[tile.y * count.x + tile.x] = vec2(listed ? reach : -1.0, nearest);
   uint item = pack_tile(tile);
+  float farthest_gathered = max(kernel_reach() * own.x, reach);
+  bool wide_gathers = (listed ? farthest_gathered : kernel_reach() * own.x) >= kernel_reach() * least_wide();
   if (listed) {
-    if (most >= kernel_reach() * least_wide()) {
+    if (wide_gathers) {
       APPEND_TILE(wide_layered, item, 1u)
     } else {
       APPEND_TILE(layered, item, 1u)
@@ -70,9 +85,13 @@ void main() {
   } else if (own.x >= least_wide()) {
     APPEND_TILE(blurred, item, 1u)
   } else if (own.x >= frame.limits.x) {
-    APPEND_TILE(narrow, item, 1u)
+    APPEND_TILE(narrow, item, kNarrowTiles)
   }
-  if (kRate > 1 && beside >= kWideBlur) {
+  bool shares = kRate > 1 && beside >= kWideBlur;
+  if (shares) {
     APPEND_TILE(squared, item, kSquaredTiles)
+  }
+  if (!all_are_sources(most)) {
+    mark_sources(tile, wide_gathers ? tiles_gathered(farthest_gathered) : (shares ? 0 : -1));
   }
 }

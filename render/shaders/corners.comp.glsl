@@ -1,52 +1,26 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The lens's rays at the corners of squares of the picture, for pixels that are interpolated between them.
+// The lens's rays at the corners of squares of the picture, for pixels that are interpolated between them; those whose
+// path does not settle at once are listed.
+#define HURRIED true
 #include "render/shaders/scene_bindings.glsl"
 #include "render/shaders/shading.glsl"
 #include "render/shaders/pixel.glsl"
+#include "render/shaders/corner_out.glsl"
+#include "render/shaders/list.glsl"
+#include "render/shaders/columns.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 10) writeonly buffer CornerRays { vec4 corners[]; };
-
-// Which segments the ray has met.
-int segments_met(LensData lens, LensPath path) {
-  int met = 0;
-  if (lens.back.parts.z > 0 && in_segment(lens.back, path.back_hit.xy)) {
-    met += 1;
-  }
-  if (lens.front.parts.z > 0 && in_segment(lens.front, path.front_hit.xy)) {
-    met += 2;
-  }
-  return met;
-}
+layout(std430, binding = 11) buffer Unsettled { uint unsettled[]; };
 
 void main() {
-  ivec2 corner = ivec2(gl_GlobalInvocationID.xy);
+  ViewData view = view_data(frame.view.x);
   ivec2 count = ivec2(frame.corners.zw);
-  int eye = frame.view.x;
-  if (corner.x >= count.x || corner.y >= count.y) {
-    return;
+  for (int row = 0; row < kColumn; ++row) {
+    ivec2 corner = pixel_of_column(gl_WorkGroupID.xy, row);
+    if (corner.x < count.x && corner.y < count.y) {
+      if (leave_corner(view, corner) == kStatusUnsettled) {
+        APPEND(unsettled, uint(corner.y * count.x + corner.x))
+      }
+    }
   }
-  ViewData view = view_data(eye);
-  PixelRay ray = aim_pixel(view, pixel_direction(view, vec2(corner) * frame.corners.xy), vec2(0.0), vec2(0.0));
-  take_transfer(view, ray);
-  vec3 upright = upright_axis(ray.line.e_h, ray.line.direction_object);
-  RayTransfer m = turned_transfer(ray.transfer, ray.across, upright, ray.line.direction_object);
-  int code = ray.status;
-  if (ray.status == kStatusOk && LENS_USED && view.lens.glass.w != 0.0) {
-    code += kCornerStatusBits * segments_met(view.lens, ray.line.path);
-  }
-  // Slopes against the picture's axis: those of a bare eye are linear over the picture. A ray so steep that they are of
-  // no use stands for no other.
-  float ahead = -dot(ray.line.direction_object, view.picture_z.xyz);
-  if (ray.status == kStatusOk && ahead < 0.05) {
-    code = kStatusUnsettled;
-  }
-  int at = kCornerTexels * ((eye * count.y + corner.y) * count.x + corner.x);
-  corners[at] = vec4(ray.line.start, float(code));
-  corners[at + 1] = vec4(ray.line.direction_object / max(ahead, 0.05), 0.0);
-  corners[at + 2] = vec4(m.a[0], m.a[1]);
-  corners[at + 3] = vec4(m.b[0], m.b[1]);
-  corners[at + 4] = vec4(m.c[0], m.c[1]);
-  corners[at + 5] = vec4(m.d[0], m.d[1]);
 }

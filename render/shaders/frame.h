@@ -36,7 +36,7 @@ const int kWavefrontTexels = 2;
 // A kept ray-transfer matrix (LensAccuracy), four vec4: A, B, C, D by columns, the outgoing basis by upright_axis.
 const int kTransferTexels = 4;
 // A corner of interpolated lens rays, six vec4: (origin, code), (direction, of length 1
-// along the picture's axis, -) in primary axes, the transfer.
+// along the picture's axis, code) in primary axes, the transfer.
 // code: the status and, in bits above it, which segments the ray has met.
 const int kCornerTexels = 6;
 const int kCornerStatusBits = 8;  // codes are less than this where no segment is met
@@ -56,6 +56,7 @@ const uint kListThin = 0x80000000u;  // on an edge pixel: found by its beam alon
 const int kBlurTile = 8;         // px a side
 const uint kListAcross = 32768u; // workgroups of a row that goes through a list of tiles, if there are more than a row
 const uint kSquaredTiles = 4u;   // that a workgroup gathers squares of 2 pixels in
+const uint kNarrowTiles = 4u;   // that a workgroup blurs by squares of 2 pixels
 const int kMostBlurTiles = 16;   // as far as a tile looks for blur that reaches it
 const float kBlurParallax = 0.5; // px that the pupil's half may set apart what counts as one depth
 const float kNearestFill = 1.0; // px^-2: how soon light behind an edge counts less with distance

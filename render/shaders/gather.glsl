@@ -81,6 +81,16 @@ float least_wide() {
   return max(kGaussian != 0u ? 0.0 : least, frame.limits.x);
 }
 
+// How many tiles around its own a tile that gathers within `reach` px takes taps from: besides the reach half a cell on
+// the taps' grid (squares of half the widest cell and more), and the pixel's own place in squares of 2.
+int tiles_gathered(float reach) {
+  float cell = 1.5 * reach * sqrt(kPi / float(max(kTaps, 1)));
+  return int(ceil((reach + max(4.0, cell)) / float(kBlurTile)));
+}
+
+// Whether blurs go so far (px) that all tiles count as gathered from.
+bool all_are_sources(float most) { return tiles_gathered(most) > kMostBlurTiles; }
+
 // An ellipse whose second moments are less by `variance` (px^2) along every direction: what the taps' own size adds.
 vec3 shrunk(vec3 s, float variance) {
   float a = major(s);
@@ -134,10 +144,18 @@ float half_widths(float y) {
   return y < 0.0 ? -within : within;
 }
 
+// The middle of a row's part of the ellipse. Only so far up as the ellipse goes: a thin one would lean out of its own
+// extent.
+float row_middle(float y, float top, float lean) {
+  float from = y - 0.5 > -top ? y - 0.5 : -top;
+  float to = y + 0.5 < top ? y + 0.5 : top;
+  return 0.5 * lean * (from + to);
+}
+
 // From where to where a row's part of the ellipse goes, as its mean over the row's height.
 vec2 row_span(Rows rows, int row) {
   float y = float(row) - rows.centre.y;
-  float middle = rows.centre.x + rows.lean * y;
+  float middle = rows.centre.x + row_middle(y, kernel_reach() * rows.top, rows.lean);
   float part = kernel_reach();
   if (kGaussian == 0u) {
     part = rows.top * (half_widths((y + 0.5) * rows.inverse_top) - half_widths((y - 0.5) * rows.inverse_top));

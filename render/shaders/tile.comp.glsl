@@ -18,6 +18,7 @@
 
 layout(constant_id = 0) const uint kLanes = 8u;  // of a subgroup: 8, 16, 32 or 64
 layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // kFeature... of view.h
+layout(constant_id = 12) const uint kCubicRays = 0u;  // 1: rays are cubics between corners, in smooth tiles alone
 #define HAS(features) ((kSceneFeatures & uint(features)) != 0u)
 layout(local_size_x_id = 0) in;
 layout(binding = 0) uniform samplerBuffer ray_origins;
@@ -26,9 +27,16 @@ layout(binding = 2) uniform usamplerBuffer wide_nodes;
 layout(binding = 3) uniform samplerBuffer bvh_triangles;
 layout(std430, binding = 4) writeonly buffer Hits { uint hits[]; };
 layout(std430, binding = 5) buffer LeftOut { uint left_out[]; };  // pixels to be traced one by one
+layout(std430, binding = 6) writeonly buffer Origins { vec4 origins[]; };  // of what is left out of cubic rays
+layout(std430, binding = 7) writeonly buffer Directions { vec4 directions_out[]; };
+layout(binding = 8) uniform samplerBuffer corners;
+layout(binding = 9) uniform usamplerBuffer is_smooth;
+layout(binding = 10) uniform usamplerBuffer view_words;
 layout(push_constant) uniform Frame { FrameData frame; };
-#define SHOWN_TILES_AT 6
+#define SHOWN_TILES_AT 11
 #include "render/shaders/group.glsl"
+#include "render/shaders/view_texels.h"
+#include "render/shaders/tile_cubics.glsl"
 
 #include "render/shaders/triangle_hit.glsl"
 #include "render/shaders/features.h"
@@ -40,21 +48,31 @@ const uint kRays = kTileSide * kTileSide / kLanes;  // of one invocation
 const uint kParts = kRays > 1u ? 2u : 1u;
 const uint kPartRays = kRays / kParts;
 const uint kLastPart = kParts - 1u;
-const uint kStackSize = 128u;
+// In registers, kLanes entries each: a software device reads and writes shared memory lane by lane.
+const uint kStackSlots = kLanes < 64u ? 64u / kLanes : 1u;
 const uint kDone = 0xFFFFFFFEu;
+const uint kHitBit = 0x80000000u;  // the sign of a distance, which has none
+const uint kNoKey = 0xFFFFFFFFu;
 const float kFar = 1e30;
 // The least cosine between a ray and the main axis; slopes stay below 8.
 const float kForward = 0.12;
 // Relative, some eight units in the last place: covers the subtraction of the tile's origin and the slopes' products.
 const float kSlack = 1e-6;
 
-shared uvec2 stack[kStackSize];  // reference, bits of the entry
+// References; entry p lies in lane p % kLanes of slot p / kLanes. Entry 0 is kDone.
+struct Stack {
+  uint slot[kStackSlots];
+  uint size;
+  uint top;  // the entry size - 1
+};
 
 // One instruction each on a software device, where min() and max() are three.
 float least(float a, float b) { return a < b ? a : b; }
 float most(float a, float b) { return a > b ? a : b; }
 float sum(float a, float b) { return a + b; }
 uint either(uint a, uint b) { return a | b; }
+uint plus(uint a, uint b) { return a + b; }
+uint least(uint a, uint b) { return min(a, b); }
 
 // On a software device a shuffle costs less than a broadcast, and three of them less than a reduction.
 #define OF_LANE(x, j) subgroupShuffle(x, j)
@@ -71,6 +89,8 @@ OVER_LANES(float, smallest, least, subgroupMin)
 OVER_LANES(float, largest, most, subgroupMax)
 OVER_LANES(float, total, sum, subgroupAdd)
 OVER_LANES(uint, all_bits, either, subgroupOr)
+OVER_LANES(uint, total, plus, subgroupAdd)
+OVER_LANES(uint, smallest, least, subgroupMin)
 vec3 smallest(vec3 x) { return vec3(smallest(x.x), smallest(x.y), smallest(x.z)); }
 vec3 largest(vec3 x) { return vec3(largest(x.x), largest(x.y), largest(x.z)); }
 vec3 total(vec3 x) { return vec3(total(x.x), total(x.y), total(x.z)); }
@@ -87,17 +107,27 @@ Bounds joined(Bounds a, Bounds b) {
                      most(a.high.w, b.high.w)));
 }
 
-// The nearest entry that still lies in front of `farthest`; kDone if there is none.
-uint pop(inout int top, float farthest) {
-  subgroupMemoryBarrierShared();
-  uint next = kDone;
-  while (top > 0 && next == kDone) {
-    --top;
-    uvec2 entry = stack[top];
-    next = uintBitsToFloat(entry.y) < farthest ? entry.x : kDone;
+void read_top(inout Stack stack) {
+  uint at = stack.size - 1u;
+  uint top = stack.slot[0];
+  [[unroll]] for (uint i = 1u; i < kStackSlots; ++i) {
+    top = at / kLanes == i ? stack.slot[i] : top;
   }
-  subgroupMemoryBarrierShared();
-  return next;
+  stack.top = OF_LANE(top, at % kLanes);
+}
+
+// Of two lanes `step` apart, in runs of `run` lanes, turn by turn the smaller in front of the greater and behind it.
+uint exchanged(uint key, uint run, uint step) {
+  uint lane = gl_SubgroupInvocationID;
+  uint other = OF_LANE(key, lane ^ step);
+  return ((lane & step) == 0u) == ((lane & run) == 0u) ? max(key, other) : min(key, other);
+}
+
+// Of eight lanes' keys the i-th greatest in lane i: Batcher's bitonic network.
+uint sorted(uint key) {
+  key = exchanged(key, 2u, 1u);
+  key = exchanged(exchanged(key, 4u, 2u), 4u, 1u);
+  return exchanged(exchanged(exchanged(key, 8u, 4u), 8u, 2u), 8u, 1u);
 }
 
 int pixel_of(uint ray) {
@@ -107,15 +137,18 @@ int pixel_of(uint ray) {
   return outside ? -1 : (frame.view.x * frame.size.y + p.y) * frame.size.x + p.x;
 }
 
+vec4 world_column(int i) { return uintBitsToFloat(texelFetch(view_words, kViewTexels * frame.view.x + kViewWorldAt + i)); }
+
 // A macro, because a loop around the loop would not be unrolled, and then the rays would be looked up by an index.
 #define TEST_PART(part)                                                                                              \
   {                                                                                                                  \
     uint here = (survivors >> (8u * part)) & 255u;                                                                   \
-    while (here != 0u) {                                                                                             \
+    do {                                                                                                             \
       uint j = uint(findLSB(here));                                                                                  \
+      float nowhere = here == 0u ? -kFar : 0.0;                                                                      \
       here &= here - 1u;                                                                                             \
       vec4 plane = vec4(OF_LANE(n.x, j), OF_LANE(n.y, j), OF_LANE(n.z, j), OF_LANE(dn, j));                          \
-      vec4 weight_p = vec4(OF_LANE(p.x, j), OF_LANE(p.y, j), OF_LANE(p.z, j), OF_LANE(dp, j));                       \
+      vec4 weight_p = vec4(OF_LANE(p.x, j), OF_LANE(p.y, j), OF_LANE(p.z, j), OF_LANE(dp, j) + nowhere);             \
       vec4 weight_q = vec4(OF_LANE(q.x, j), OF_LANE(q.y, j), OF_LANE(q.z, j), OF_LANE(dq, j));                       \
       [[unroll]] for (uint i = 0u; i < kPartRays; ++i) {                                                             \
         uint r = part * kPartRays + i;                                                                               \
@@ -129,7 +162,7 @@ int pixel_of(uint ray) {
         t[r] = hit ? w : t[r];                                                                                       \
         found[r] = hit ? first + j : found[r];                                                                       \
       }                                                                                                              \
-    }                                                                                                                \
+    } while (here != 0u);                                                                                            \
   }
 
 void main() {
@@ -139,10 +172,24 @@ void main() {
   vec3 high = vec3(-kFar);
   vec3 starts[kRays];
   vec4 directions[kRays];
+  bool is_cubic = true;
+  ColumnRays cubics;
+  if (kCubicRays != 0u) {
+    ivec2 tile = ivec2(group_in_picture());
+    is_cubic = tile_is_smooth(is_smooth, tile);
+    cubics = column_rays(tile_corners(tile), world_column(0), world_column(1), world_column(2));
+  }
   [[unroll]] for (uint r = 0u; r < kRays; ++r) {
     int at = pixel_of(r);
-    vec4 d = texelFetch(ray_directions, max(at, 0));
-    vec3 o = texelFetch(ray_origins, max(at, 0)).xyz;
+    vec4 d;
+    vec3 o;
+    if (kCubicRays != 0u) {
+      d = vec4(cubic_direction(cubics, int(r)), is_cubic ? 1.0 : -1.0);
+      o = cubic_origin(cubics, int(r));
+    } else {
+      d = texelFetch(ray_directions, max(at, 0));
+      o = texelFetch(ray_origins, max(at, 0)).xyz;
+    }
     d.w = at >= 0 ? d.w : -1.0;
     starts[r] = o;
     directions[r] = d;
@@ -205,111 +252,122 @@ void main() {
   }
 
   float farthest = kFar;  // of the hits that the tile has; kFar while a ray has none
-  uint current = flags == 2u ? 0u : kDone;
-  int top = 0;
-  // Loops rather than branches: a software device takes both sides of a branch, and leaves a loop.
-  while (current != kDone) {
-    uint first = 0u;
-    uint survivors = 0u;
-    vec3 a = vec3(0.0);
-    vec3 e1 = vec3(0.0);
-    vec3 e2 = vec3(0.0);
-    vec3 n = vec3(0.0);
-    do {
-      while (current < kBvhLeafBit) {
-        int texel = int(current * kBvhWideNodeTexels + (lane & 7u));
-        uvec4 low_q = texelFetch(wide_nodes, texel);
-        uvec4 high_q = texelFetch(wide_nodes, texel + int(kBvhWide));
-        vec3 box_low = uintBitsToFloat(low_q.xyz);
-        vec3 box_high = uintBitsToFloat(high_q.xyz);
-        // Fetches stay out of IN_TILE, which would repeat them.
-        box_low = IN_TILE(box_low) - base;
-        box_high = IN_TILE(box_high) - base;
-        float near = forward > 0.0 ? box_low.z : -box_high.z;
-        float far = forward > 0.0 ? box_high.z : -box_low.z;
-        float margin = kSlack * (reach.z + most(abs(near), abs(far)));
-        near = most(near - margin, 0.0);
-        far += margin;
-        bool hit = lane < kBvhWide && far >= near && near < farthest &&
-                   box_high.x - least(all.low.x * near, all.low.x * far) >= all.low.z &&
-                   box_low.x - most(all.high.x * near, all.high.x * far) <= all.high.z &&
-                   box_high.y - least(all.low.y * near, all.low.y * far) >= all.low.w &&
-                   box_low.y - most(all.high.y * near, all.high.y * far) <= all.high.w;
-        // The farthest lies deepest on the stack.
-        float key = hit ? near : -1.0;
-        int place = 0;
-        int count = 0;
-        [[unroll]] for (uint j = 0u; j < kBvhWide; ++j) {
-          float other = OF_LANE(key, j);
-          place += other > key || (other == key && j < lane) ? 1 : 0;
-          count += other >= 0.0 ? 1 : 0;
-        }
-        bool fits = top + count <= int(kStackSize);
-        sound = sound && fits;
-        if (hit && fits) {
-          stack[top + place] = uvec2(low_q.w, floatBitsToUint(near));
-        }
-        top = fits ? top + count : 0;
-        current = pop(top, farthest);
-      }
-      uint count = current == kDone ? 0u : current & kBvhLeafCountMask;
-      first = current == kDone ? 0u : (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
-      int texel = int(kBvhTriangleTexels * (first + (lane < count ? lane : 0u)));
-      vec3 first_q = texelFetch(bvh_triangles, texel).xyz;
-      vec3 second_q = texelFetch(bvh_triangles, texel + 1).xyz;
-      vec4 last = texelFetch(bvh_triangles, texel + 2);
-      a = IN_TILE(first_q) - base;
-      e1 = IN_TILE(second_q);
-      e2 = IN_TILE(last.xyz);
-      a.z *= forward;
-      e1.z *= forward;
-      e2.z *= forward;
-      vec3 b = a + e1;
-      vec3 c = a + e2;
-      float near = least(least(a.z, b.z), c.z);
-      float far = most(most(a.z, b.z), c.z);
-      float margin = kSlack * (reach.z + most(abs(near), abs(far)));
-      near -= margin;
-      bool kept = lane < count && near < farthest && far + margin >= 0.0;
-      n = cross(e1, e2);
-      if (HAS(kFeatureCull)) {
-        // Its back to every ray; a mirrored tile turns faces round.
-        float turned = (floatBitsToUint(last.w) & kBvhCulled) != 0u ? forward : 0.0;
-        vec3 m = n * turned;
-        float least_against = least(m.x * all.low.x, m.x * all.high.x) + least(m.y * all.low.y, m.y * all.high.y) + m.z;
-        kept = kept && least_against <= 0.0;
-      }
-      uint bits = 0u;
-      [[unroll]] for (uint part = 0u; part < kParts; ++part) {
-        vec4 l = bounds_in[part].low;
-        vec4 m = bounds_in[part].high;
-        bool here = kept && most(most(a.x - l.x * a.z, b.x - l.x * b.z), c.x - l.x * c.z) >= l.z &&
-                    least(least(a.x - m.x * a.z, b.x - m.x * b.z), c.x - m.x * c.z) <= m.z &&
-                    most(most(a.y - l.y * a.z, b.y - l.y * b.z), c.y - l.y * c.z) >= l.w &&
-                    least(least(a.y - m.y * a.z, b.y - m.y * b.z), c.y - m.y * c.z) <= m.w;
-        bits |= here ? 1u << (8u * part) : 0u;
-      }
-      survivors = all_bits(bits << (lane & 7u));
-      current = survivors == 0u ? pop(top, farthest) : current;
-    } while (survivors == 0u && current != kDone);
-    // Plane and barycentric weights as linear forms of the position (Woop 2004), each in its own invocation.
-    float scale = 1.0 / dot(n, n);
-    vec3 p = cross(e2, n) * scale;
-    vec3 q = cross(n, e1) * scale;
-    float dn = dot(n, a);
-    float dp = -dot(p, a);
-    float dq = -dot(q, a);
-    TEST_PART(0u)
-    if (kParts > 1u) {
-      TEST_PART(kLastPart)
-    }
-    float worst = t[0];
-    [[unroll]] for (uint r = 1u; r < kRays; ++r) {
-      worst = most(worst, t[r]);
-    }
-    farthest = largest(worst);
-    current = current == kDone ? kDone : pop(top, farthest);
+  uint current = 0u;
+  farthest = flags == 2u ? farthest : -1.0;
+  Stack stack;
+  [[unroll]] for (uint i = 0u; i < kStackSlots; ++i) {
+    stack.slot[i] = kDone;
   }
+  stack.size = 1u;
+  stack.top = kDone;
+  // Loops rather than branches: a software device takes both sides of a branch, and leaves a loop. It looks whether to
+  // go on at the loop's end only: one that asks at its start costs a turn for nothing.
+  do {
+    do {
+      int texel = int(current * kBvhWideNodeTexels + (lane & 7u));
+      uvec4 low_q = texelFetch(wide_nodes, texel);
+      uvec4 high_q = texelFetch(wide_nodes, texel + int(kBvhWide));
+      vec3 box_low = uintBitsToFloat(low_q.xyz);
+      vec3 box_high = uintBitsToFloat(high_q.xyz);
+      // Fetches stay out of IN_TILE, which would repeat them.
+      box_low = IN_TILE(box_low) - base;
+      box_high = IN_TILE(box_high) - base;
+      float near = forward > 0.0 ? box_low.z : -box_high.z;
+      float far = forward > 0.0 ? box_high.z : -box_low.z;
+      float margin = kSlack * (reach.z + most(abs(near), abs(far)));
+      near = most(near - margin, 0.0);
+      far += margin;
+      bool hit = lane < kBvhWide && far >= near && near < farthest &&
+                 box_high.x - least(all.low.x * near, all.low.x * far) >= all.low.z &&
+                 box_low.x - most(all.high.x * near, all.high.x * far) <= all.high.z &&
+                 box_high.y - least(all.low.y * near, all.low.y * far) >= all.low.w &&
+                 box_low.y - most(all.high.y * near, all.high.y * far) <= all.high.w;
+      // Distances order as their bits do; the last three name the lane and make each unlike the others. What comes
+      // next does not wait for the stack to be put in order.
+      uint key = (floatBitsToUint(near) & ~7u) | lane;
+      uint nearest = smallest(hit ? key : kNoKey);
+      current = nearest != kNoKey ? OF_LANE(low_q.w, nearest & 7u) : stack.top;
+      uint count = total(hit ? 1u : 0u);
+      bool fits = stack.size + count <= kStackSlots * kLanes;
+      sound = sound && fits;
+      farthest = fits ? farthest : -1.0;
+      // The farthest lies deepest, the nearest is already taken off.
+      key = OF_LANE(sorted(hit ? key | kHitBit : 0u), lane - stack.size);
+      uint reference = OF_LANE(low_q.w, key & 7u);
+      [[unroll]] for (uint i = 0u; i < kStackSlots; ++i) {
+        stack.slot[i] = kLanes * i + lane - stack.size < count ? reference : stack.slot[i];
+      }
+      stack.size = max(stack.size + count, 2u) - 1u;
+      read_top(stack);
+    } while (current < kBvhLeafBit);
+    do {
+      uint first = 0u;
+      uint survivors = 0u;
+      vec3 a = vec3(0.0);
+      vec3 e1 = vec3(0.0);
+      vec3 e2 = vec3(0.0);
+      vec3 n = vec3(0.0);
+      do {
+        uint count = current == kDone ? 0u : current & kBvhLeafCountMask;
+        first = current == kDone ? 0u : (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
+        int texel = int(kBvhTriangleTexels * (first + (lane < count ? lane : 0u)));
+        vec3 first_q = texelFetch(bvh_triangles, texel).xyz;
+        vec3 second_q = texelFetch(bvh_triangles, texel + 1).xyz;
+        vec4 last = texelFetch(bvh_triangles, texel + 2);
+        a = IN_TILE(first_q) - base;
+        e1 = IN_TILE(second_q);
+        e2 = IN_TILE(last.xyz);
+        a.z *= forward;
+        e1.z *= forward;
+        e2.z *= forward;
+        vec3 b = a + e1;
+        vec3 c = a + e2;
+        float near = least(least(a.z, b.z), c.z);
+        float far = most(most(a.z, b.z), c.z);
+        float margin = kSlack * (reach.z + most(abs(near), abs(far)));
+        near -= margin;
+        bool kept = lane < count && near < farthest && far + margin >= 0.0;
+        n = cross(e1, e2);
+        if (HAS(kFeatureCull)) {
+          // Its back to every ray; a mirrored tile turns faces round.
+          float turned = (floatBitsToUint(last.w) & kBvhCulled) != 0u ? forward : 0.0;
+          vec3 m = n * turned;
+          float least_against = least(m.x * all.low.x, m.x * all.high.x) + least(m.y * all.low.y, m.y * all.high.y) + m.z;
+          kept = kept && least_against <= 0.0;
+        }
+        uint bits = 0u;
+        [[unroll]] for (uint part = 0u; part < kParts; ++part) {
+          vec4 l = bounds_in[part].low;
+          vec4 m = bounds_in[part].high;
+          bool here = kept && most(most(a.x - l.x * a.z, b.x - l.x * b.z), c.x - l.x * c.z) >= l.z &&
+                      least(least(a.x - m.x * a.z, b.x - m.x * b.z), c.x - m.x * c.z) <= m.z &&
+                      most(most(a.y - l.y * a.z, b.y - l.y * b.z), c.y - l.y * c.z) >= l.w &&
+                      least(least(a.y - m.y * a.z, b.y - m.y * b.z), c.y - m.y * c.z) <= m.w;
+          bits |= here ? 1u << (8u * part) : 0u;
+        }
+        survivors = all_bits(bits << (lane & 7u));
+        current = stack.top;
+        stack.size = max(stack.size, 2u) - 1u;
+        read_top(stack);
+      } while (survivors == 0u && current >= kBvhLeafBit && current != kDone);
+      // Plane and barycentric weights as linear forms of the position (Woop 2004), each in its own invocation.
+      float scale = 1.0 / dot(n, n);
+      vec3 p = cross(e2, n) * scale;
+      vec3 q = cross(n, e1) * scale;
+      float dn = dot(n, a);
+      float dp = -dot(p, a);
+      float dq = -dot(q, a);
+      TEST_PART(0u)
+      if (kParts > 1u) {
+        TEST_PART(kLastPart)
+      }
+      float worst = t[0];
+      [[unroll]] for (uint r = 1u; r < kRays; ++r) {
+        worst = most(worst, t[r]);
+      }
+      farthest = sound ? largest(worst) : -1.0;
+    } while (current >= kBvhLeafBit && current != kDone);
+  } while (current != kDone);
   [[unroll]] for (uint r = 0u; r < kRays; ++r) {
     int at = pixel_of(r);
     vec4 direction = directions[r];
@@ -319,11 +377,15 @@ void main() {
     PlaneHit there = plane_hit(met ? found[r] : 0u, starts[r], direction.xyz);
     bool holds = sound && (!met || (is_hit(there, kFarthest) && (there.flags & kBvhCutOut) == 0u &&
                                     ((there.flags & kBvhCulled) == 0u || there.determinant > 0.0)));
-    if (at >= 0) {
+    if (at >= 0 && is_cubic) {
       hits[at] = found[r];
     }
     if (at >= 0 && direction.w >= 0.0 && !holds) {
       APPEND(left_out, uint(at))
+      if (kCubicRays != 0u) {
+        origins[at] = vec4(starts[r], 0.0);
+        directions_out[at] = direction;
+      }
     }
   }
 }

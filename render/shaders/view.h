@@ -21,10 +21,7 @@ struct ViewData {
   vec4 virtual_image;  // x: distance of the headset's virtual image (m), 0 for none; y: its view origin behind the pupil
 };
 
-// What they measure, in texels of four words.
-const int kSurfaceTexels = 8;
-const int kLensTexels = 5 + 2 * kSurfaceTexels;
-const int kViewTexels = kLensTexels + 12;
+#include "render/shaders/view_texels.h"
 
 const int kLightDirectional = 0;
 const int kLightPoint = 1;

@@ -49,7 +49,7 @@ void bench(render::vk::Device& device, const char* scene_name, const render::Sce
         "ray_query",
         &ray_query.emplace(device, scene, render::RendererConfig{.traversal = render::Traversal::ray_query}));
   }
-  const tracking::Pose head = scene.start_pose.value_or(tracking::Pose{});
+  const tracking::Pose head = scene.start_pose().value_or(tracking::Pose{});
   const auto progressive = lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_sphere.json");
   for (const bool worn : {false, true}) {
     const auto pair = support::wear(lenses::Wearer{}, worn ? &progressive : nullptr, head);

@@ -168,6 +168,7 @@ TEST_F(RenderRefuses, Directions) {
   for (const std::string pose : {"nan,0,0,0,0", "0,inf,0,0,0", "0,0,0,0,nan", "1,2,3,4", "1,2,3,4,5,6", "here"}) {
     expect({"--pose", pose}, kBadInput, "--pose", "X,Y,Z,YAW,PITCH");
   }
+  expect({"--pose", "here"}, kBadInput, "--pose", "it has origin");
   expect({"--pose", "1e9,0,0,0,0"}, kBadInput, "--pose", "100000 m");
   expect({"--pose", "0,0,0,400,0"}, kBadInput, "--pose", "deg of yaw");
   expect({"--pose", "0,0,0,0,91"}, kBadInput, "--pose", "deg of pitch");

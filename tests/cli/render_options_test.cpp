@@ -151,6 +151,29 @@ TEST_F(RenderOption, PoseTurnsAndMovesTheHead) {
   expect_at(draw({"--pose", "0.1,0.7,-1,0,0"}).image, place.x, place.y);
 }
 
+TEST_F(RenderOption, PoseTakesACamera) {
+  auto gltf = support::patch_gltf({far_square(10, 0)});
+  const double half = 5.0 * kDegree;  // turned 10 degrees to the right
+  gltf.root["nodes"].push_back(
+      {{"name", "aside"}, {"camera", 0}, {"rotation", {0, -std::sin(half), 0, std::cos(half)}}});
+  gltf.root["scenes"][0]["nodes"].push_back(gltf.root["nodes"].size() - 1);
+  scene_ = file("scene.gltf", gltf.text());
+  const double step = pixels_per_tangent(60) * std::tan(10 * kDegree);
+  expect_at(draw({}).image, step, 0);
+  expect_at(draw({"--pose", "origin"}).image, step, 0);
+  expect_at(draw({"--pose", "aside"}).image, 0, 0);
+  expect_at(draw({"--pose", "1"}).image, 0, 0);
+}
+
+TEST_F(RenderOption, WithoutACameraTheWholeSceneIsSeen) {
+  auto gltf = support::patch_gltf({square({300.0, -200.0, 50.0}, 20.0)});
+  gltf.root.erase("cameras");
+  gltf.root["nodes"].erase(1);
+  gltf.root["scenes"][0]["nodes"] = {0};
+  scene_ = file("scene.gltf", gltf.text());
+  expect_at(draw({}).image, 0, 0);
+}
+
 TEST_F(RenderOption, FovIsVertical) {
   scene({far_square(8, 12)});
   for (const std::string fov : {"40", "80"}) {

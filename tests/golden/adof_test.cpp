@@ -205,7 +205,7 @@ TEST(Adof, IsFiniteAtEveryRungInHardCases) {
   for (const HardView& h : hard) {
     std::optional<lenses::Spectacles> spectacles;
     if (h.spectacles != nullptr) spectacles = lenses::read_spectacles(h.spectacles);
-    const auto pair = support::wear(lenses::Wearer{}, spectacles ? &*spectacles : nullptr, *scene.start_pose);
+    const auto pair = support::wear(lenses::Wearer{}, spectacles ? &*spectacles : nullptr, *scene.start_pose());
     auto setup = support::view_along(pair, 0, render::Viewing::fixed, {0, 0, -1},
                                      {h.half_tangent, h.half_tangent, h.half_tangent, h.half_tangent});
     setup.eye.excess = glm::dvec4(h.excess, 0.3 * h.excess, -0.5 * h.excess, 0.0);

@@ -174,7 +174,7 @@ TEST(HeadTurn, LeavesPrintAlone) {
   };
   const render::Scene room = support::reading_room();
   for (const auto& [target, fov, flicker] : {Sheet{"etdrs_chart", 12.0, 0.010}, Sheet{"near_card", 14.0, 1.0 / 64.0}}) {
-    Turn turn = turn_at(room.start_pose.value(), fov);
+    Turn turn = turn_at(room.start_pose().value(), fov);
     const glm::dvec3 towards = support::target_position(room, target) - turn.view(0).world_from_eye.position;
     turn.gaze = glm::normalize(glm::inverse(turn.pair.world_from_head.orientation) * towards);
     EXPECT_LT(crawl_in(room, turn, target).flicker, flicker) << target;

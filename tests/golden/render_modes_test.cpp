@@ -85,7 +85,7 @@ class RenderModes : public testing::Test {
 
   static WornPair worn(bool with_spectacles) {
     const lenses::Wearer wearer = lenses::read_wearer(VERGENCE_ASSETS "/wearers/presbyopia.json");
-    return support::wear(wearer, with_spectacles ? &spectacles_ : nullptr, scene_->start_pose.value());
+    return support::wear(wearer, with_spectacles ? &spectacles_ : nullptr, scene_->start_pose().value());
   }
 
   // The right eye's view of a target.

@@ -22,7 +22,7 @@ TEST(Validation, IsSilentOverEveryMode) {
     const render::Scene scene = support::reading_room();
     render::Renderer renderer(device, scene);
     const auto spectacles = lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/presbyopia_bspline_torus.json");
-    const auto pair = support::wear(lenses::Wearer{}, &spectacles, scene.start_pose.value());
+    const auto pair = support::wear(lenses::Wearer{}, &spectacles, scene.start_pose().value());
     const auto views = support::views_at(pair, render::Viewing::gaze, support::target_position(scene, "near_card"),
                                          tracking::FieldOfView::symmetric(50.0 * support::kDegree, 1.0));
     for (const Mode mode : {Mode::pinhole, Mode::adof, Mode::dof, Mode::power, Mode::astigmatism, Mode::accommodation,

@@ -57,7 +57,7 @@ class RepeatedFrames : public testing::Test {
   }
   [[nodiscard]] WornPair worn(const lenses::Spectacles& spectacles, const glm::dvec3& step = glm::dvec3(0.0),
                               double turn = 0.0) const {
-    tracking::Pose pose = scene_.start_pose.value();
+    tracking::Pose pose = scene_.start_pose().value();
     pose.position += step;
     pose.orientation = pose.orientation * tracking::orientation_from_yaw_pitch(turn, -0.5 * turn);
     lenses::Wearer wearer;

@@ -27,7 +27,7 @@ const tracking::FieldOfView kLopsided{.tan_left = 0.75, .tan_right = 0.45, .tan_
 
 // Not along any axis, and off the scene's own camera.
 tracking::Pose head_in_room(const render::Scene& scene) {
-  tracking::Pose pose = scene.start_pose.value();
+  tracking::Pose pose = scene.start_pose().value();
   pose.position += glm::dvec3(0.05, 0.03, -0.02);
   pose.orientation = pose.orientation * tracking::orientation_from_yaw_pitch(0.07, -0.05);
   return pose;

@@ -76,7 +76,7 @@ struct Place {
 std::vector<Place> places() {
   std::vector<Place> all;
   Scene room = support::reading_room();
-  const tracking::Pose in_room = room.start_pose.value();
+  const tracking::Pose in_room = room.start_pose().value();
   all.push_back({"reading room", std::move(room), in_room});
   all.push_back({"cluttered room", support::cluttered_room(7, 60000), tracking::Pose{}});
   tracking::Pose above;
@@ -199,6 +199,36 @@ TEST(Traversals, HandOnWhatFliesApart) {
       EXPECT_LT(hits.left_out, rays.size() / 2);
     }
   }
+}
+
+// Triangles one behind the other, each a little larger than the one before, so that each hides the next and the tree is
+// a chain: a tile at the outline has more waiting than its stack holds, and is handed on.
+TEST(Traversals, HitTheFirstOfALongChain) {
+  constexpr int kSide = 64, kTriangles = 4000;
+  Scene chain;
+  for (int i = 0; i < kTriangles; ++i) {
+    const float x = std::exp2(static_cast<float>(i) * 50.0F / kTriangles - 22.0F);
+    scene_oracle::add_triangle(chain, {x, 0.0F, 0.0F}, {x, 0.0F, 0.5F * x}, {x, 0.5F * x, 0.0F});
+  }
+  std::vector<SceneRay> rays;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      rays.push_back({glm::vec3(0.0F), glm::normalize(glm::vec3(1.0F, (static_cast<float>(x) + 0.5F) / kSide - 0.3F,
+                                                                (static_cast<float>(y) + 0.5F) / kSide - 0.3F))});
+    }
+  }
+  const auto expected = render::PacketTracer(chain).triangles_hit(rays);
+  const render::SceneBuffers buffers(device(), chain);
+  const auto hits = support::device_hits(device(), buffers, rays, kSide, kSide, Traversal::tile);
+  std::size_t wrong = 0, met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    wrong += same_hit(chain, rays[i], hits.triangle[i], expected[i]) ? 0 : 1;
+    met += expected[i] == kNone ? 0 : 1;
+  }
+  EXPECT_EQ(wrong, 0U);
+  EXPECT_GT(met, rays.size() / 20);
+  EXPECT_GT(hits.left_out, 0U) << "the stack was never full";
+  EXPECT_LT(hits.left_out, rays.size());
 }
 
 // To the bit, but where two triangles meet a ray within rounding of each other: either may win. A ray through an edge

@@ -34,8 +34,8 @@ inline render::Material patterned(std::int32_t texture, const glm::vec3& colour)
 }
 
 inline void add_targets(render::Scene& scene) {
-  scene.start_pose = tracking::Pose{};
-  scene.start_pose->position.x = -lenses::Wearer{}.pupillary_distance[0];  // the right eye at the origin
+  scene.cameras = {{"start", {}}};
+  scene.cameras.front().pose.position.x = -lenses::Wearer{}.pupillary_distance[0];  // the right eye at the origin
   scene.targets = {{"near", {0.0, 0.0, -kNearLayer}}, {"far", {0.0, 0.0, -kFarLayer}}};
 }
 

@@ -88,7 +88,7 @@ class DefocusViews {
     if (view.spectacles[0] != '\0') {
       spectacles = lenses::read_spectacles(std::string(VERGENCE_ASSETS "/spectacles/") + view.spectacles + ".json");
     }
-    tracking::Pose head = scene.start_pose.value();
+    tracking::Pose head = scene.start_pose().value();
     head.orientation = head.orientation * glm::angleAxis(-view.head_yaw_deg * kDegree, glm::dvec3(0, 1, 0));
     return wear(wearer, spectacles ? &*spectacles : nullptr, head);
   }

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "render/frame_job.hpp"
+#include "render/gpu_tracer.hpp"
 #include "render/lens_forms/lens_form_cache.hpp"
+#include "render/lens_forms/tile_cubics.hpp"
+#include "tests/support/cubic_picture.hpp"
 #include "tests/support/tiny_scene.hpp"
 #include "tests/support/worn_views.hpp"
 
@@ -84,6 +87,9 @@ class RungFrame {
             int size, render::Traversal traversal = render::Traversal::tile)
       : device_(shared.device),
         config_(config_of(lens, size)),
+        eye_(view.world_from_eye.position),
+        cubic_(render::may_be_cubic(config_, {view}, traversal) &&
+               render::can_be_cubic(device_.limits(), render::surface_kinds({pair.model.lens[view.lens]}))),
         out_(device_, render::buffers_for(config_, {view}, traversal)),
         commands_(device_) {
     // The second frame of a running picture is the one to look at: a field is known by then.
@@ -98,20 +104,29 @@ class RungFrame {
 
   std::vector<render::vk::StageTime> run() { return device_.run(commands_); }
 
+  // After run(), as render/frame_buffers.hpp has them.
+  [[nodiscard]] const render::FrameBuffers& buffers() const { return out_; }
+
   // After run().
   [[nodiscard]] RungErrors against(const ReferencePicture& reference) const {
     const std::size_t count = reference.pixels.size();
     const auto wavefronts = out_.wavefronts.read<glm::vec4>(2 * count);
     const auto origins = out_.ray_origins.read<glm::vec4>(count);
     const auto directions = out_.ray_directions.read<glm::vec4>(count);
+    const CubicPicture cubic = cubic_ ? CubicPicture(out_, reference.size) : CubicPicture();
     RungErrors errors;
     std::vector<double> direction, position, power, astigmatism;
     for (std::size_t i = 0; i < count; ++i) {
       const auto& expected = reference.pixels[i];
-      for (const glm::vec4& v : {wavefronts[2 * i], wavefronts[2 * i + 1], origins[i], directions[i]}) {
+      const int x = static_cast<int>(i) % reference.size, y = static_cast<int>(i) / reference.size;
+      const bool smooth = cubic.is_smooth(x, y);
+      const CubicRay ray = smooth ? cubic.at(x, y) : CubicRay{glm::dvec3(origins[i]), glm::dvec3(directions[i])};
+      const glm::dvec3 start = smooth ? ray.origin + eye_ : ray.origin;
+      for (const glm::dvec4& v : {glm::dvec4(wavefronts[2 * i]), glm::dvec4(wavefronts[2 * i + 1]),
+                                  glm::dvec4(start, 0.0), glm::dvec4(ray.direction, 0.0)}) {
         errors.finite = errors.finite && std::isfinite(v.x + v.y + v.z + v.w);
       }
-      const float told = directions[i].w;
+      const float told = smooth ? 1.0F : directions[i].w;
       const int status = told > 0.0F ? f64::kStatusOk : told < 0.0F ? static_cast<int>(-told) : f64::kStatusMissBack;
       if (status != expected.status) {
         ++errors.status_differs;
@@ -122,8 +137,8 @@ class RungFrame {
         continue;
       }
       ++errors.through;
-      direction.push_back(glm::length(glm::dvec3(directions[i]) - expected.direction));
-      position.push_back(glm::length(glm::dvec3(origins[i]) - expected.start));
+      direction.push_back(glm::length(ray.direction - expected.direction));
+      position.push_back(glm::length(start - expected.start));
       const glm::dvec3 got = f64::principal(glm::dvec3(wavefronts[2 * i]));
       const glm::dvec3 wanted = f64::principal(expected.vergence);
       power.push_back(0.5 * std::abs(got.x + got.y - wanted.x - wanted.y));
@@ -143,11 +158,16 @@ class RungFrame {
     config.mode = render::Mode::power;
     config.range = render::MapRange{0.0, 1.0};
     config.accuracy.lens = lens;
+    if (lens.cubics == render::TileCubics::in_pictures) {
+      config.accuracy.lens.cubics = render::TileCubics::always;  // as pictures have them
+    }
     return config;
   }
 
   render::vk::Device& device_;
   render::FrameConfig config_;
+  glm::dvec3 eye_;  // where the view's pupil is; the heads stand at the origin, unturned
+  bool cubic_;
   render::LensFormCache forms_;
   render::FrameBuffers out_;
   render::vk::Commands commands_;

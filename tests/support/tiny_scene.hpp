@@ -50,6 +50,8 @@ inline gltf_fixture::Gltf patch_gltf(const std::vector<Patch>& patches, const st
                                        {"translation", {target.position.x, target.position.y, target.position.z}},
                                        {"extras", {{"target", true}}}}));
   }
+  gltf.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  roots.push_back(gltf.add("nodes", {{"name", "origin"}, {"camera", 0}}));
   gltf.root["scenes"] = {{{"nodes", roots}}};
   gltf.root["scene"] = 0;
   return gltf;

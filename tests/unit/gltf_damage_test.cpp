@@ -22,6 +22,37 @@ TEST(GltfReaderDamage, files) {
   expect_refused(folder.write("nested.gltf", nested), "", "64");
 }
 
+// Small files, or files that take no room on the disk, that would take gigabytes of memory or hours.
+TEST(GltfReaderDamage, more_than_a_scene_may_hold) {
+  const Folder folder;
+  const std::string big = folder.write("big.gltf", "{");
+  fs::resize_file(big, (std::uintmax_t{1} << 29) + 1);
+  expect_refused(big, "", "512 MiB");
+
+  Gltf g = square();
+  constexpr std::size_t kHalf = 300'000'000;
+  fs::resize_file(folder.write("zeros.bin", ""), kHalf);
+  for (int i = 0; i < 2; ++i) g.root["buffers"].push_back({{"byteLength", kHalf}, {"uri", "zeros.bin"}});
+  const std::string own = std::to_string(g.text().size() + 2 * kHalf);
+  expect_refused(folder.write("twice.gltf", g.text()), "buffers[1].byteLength", ("to " + own + " bytes").c_str());
+
+  std::string values = R"({"asset": {"version": "2.0"}, "extras": [0)";
+  for (int i = 0; i < 1 << 22; ++i) values += ",0";
+  expect_refused(folder.write("values.gltf", values + "]}"), "", "4194304 are allowed");
+
+  g = square();
+  g.root["materials"] = json(400'000, json::object());
+  expect_refused(g, "materials", "400000 elements");
+
+  g = with_light({{"type", "point"}}, json::object());
+  const json lit = g.root["nodes"][1];
+  for (std::size_t i = 2; i < 1026; ++i) {
+    g.root["nodes"].push_back(lit);
+    g.root["scenes"][0]["nodes"].push_back(i);
+  }
+  expect_refused(g, "nodes[1025].extensions.KHR_lights_punctual", "1024 are allowed");
+}
+
 TEST(GltfReaderDamage, other_versions) {
   Gltf g = square();
   for (const char* other : {"1.0", "3.0", "20.0", "two"}) {

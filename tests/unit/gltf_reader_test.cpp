@@ -1,4 +1,5 @@
 // What read_gltf reads: each feature on a hand-made file.
+#include "render/scene/framing.hpp"
 #include "tests/unit/gltf_fixture.hpp"
 
 namespace {
@@ -13,7 +14,7 @@ TEST(GltfReader, a_square) {
   expect_near(corner(scene, 1, 2), {0, 1, 0});
   for (const auto& vertex : scene.vertices) expect_near(vertex.normal, {0, 0, 1});
   EXPECT_EQ(scene.materials.at(0).name, "paint");
-  EXPECT_FALSE(scene.start_pose);
+  EXPECT_FALSE(scene.start_pose());
   EXPECT_EQ(scene.lights.size(), 1U) << "the sun of a file without any";
 }
 
@@ -389,11 +390,40 @@ TEST(GltfReader, the_first_camera_gives_the_start_pose_without_scale) {
                      {{"camera", 0}}};
   g.root["scenes"][0]["nodes"] = {0, 1, 2};
   const Scene scene = read(g);
-  ASSERT_TRUE(scene.start_pose);
-  expect_near(glm::vec3(scene.start_pose->position), {1, 2, 3});
-  expect_near(glm::vec3(scene.start_pose->direction({0, 0, -1})), {1, 0, 0});  // turned to the right
-  expect_near(glm::vec3(scene.start_pose->direction({0, 1, 0})), {0, 1, 0});
-  EXPECT_NEAR(glm::length(scene.start_pose->orientation), 1.0, 1e-12);
+  ASSERT_TRUE(scene.start_pose());
+  expect_near(glm::vec3(scene.start_pose()->position), {1, 2, 3});
+  expect_near(glm::vec3(scene.start_pose()->direction({0, 0, -1})), {1, 0, 0});  // turned to the right
+  expect_near(glm::vec3(scene.start_pose()->direction({0, 1, 0})), {0, 1, 0});
+  EXPECT_NEAR(glm::length(scene.start_pose()->orientation), 1.0, 1e-12);
+}
+
+TEST(GltfReader, cameras_go_by_their_nodes_names_else_by_their_own) {
+  Gltf g = square();
+  g.root["cameras"] = {{{"type", "perspective"}, {"name", "own"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+  g.root["nodes"] = {{{"mesh", 0}}, {{"camera", 0}}, {{"camera", 0}, {"name", "door"}, {"translation", {0, 0, 3}}}};
+  g.root["scenes"][0]["nodes"] = {0, 1, 2};
+  const Scene scene = read(g);
+  ASSERT_EQ(scene.cameras.size(), 2U);
+  EXPECT_EQ(scene.cameras[0].name, "own");
+  EXPECT_EQ(scene.cameras[1].name, "door");
+  expect_near(glm::vec3(scene.cameras[1].pose.position), {0, 0, 3});
+}
+
+// Whatever a scene's size and place, it lies ahead, inside a view of 60 degrees, and no nearer than the eye can focus.
+TEST(GltfReader, without_a_camera_the_whole_scene_is_seen) {
+  for (const double scale : {0.001, 1.0, 500.0}) {
+    Gltf g = square();
+    g.root["nodes"][0].update({{"translation", {7.0 * scale, -3.0 * scale, 11.0}}, {"scale", {scale, scale, scale}}});
+    const Scene scene = read(g);
+    const tracking::Pose head = render::framing_pose(scene);
+    EXPECT_EQ(head.direction({0, 0, -1}), glm::dvec3(0, 0, -1));
+    for (const render::Vertex& vertex : scene.vertices) {
+      const glm::dvec3 there = glm::dvec3(vertex.position) - head.position;
+      EXPECT_LE(there.z, -0.4 + 1e-6);  // float corners
+      EXPECT_LE(std::abs(there.x), -there.z * std::tan(glm::radians(30.0)));
+      EXPECT_LE(std::abs(there.y), -there.z * std::tan(glm::radians(30.0)));
+    }
+  }
 }
 
 TEST(GltfReader, targets_are_the_named_nodes_that_say_so) {
@@ -407,6 +437,17 @@ TEST(GltfReader, targets_are_the_named_nodes_that_say_so) {
   ASSERT_EQ(scene.targets.size(), 1U);
   EXPECT_EQ(scene.targets[0].name, "chart");
   EXPECT_EQ(scene.targets[0].position, glm::dvec3(0.5, 0, -2));
+}
+
+// In a time that grows as their number; as its square it would be an hour.
+TEST(GltfReader, a_hundred_thousand_targets) {
+  Gltf g = square();
+  constexpr std::size_t kMany = 100'000;
+  for (std::size_t i = 0; i < kMany; ++i) {
+    g.root["nodes"].push_back({{"name", "target " + std::to_string(i)}, {"extras", {{"target", true}}}});
+    g.root["scenes"][0]["nodes"].push_back(i + 1);
+  }
+  EXPECT_EQ(read(g).targets.size(), kMany);
 }
 
 TEST(GltfReader, the_environment_of_the_assets_extras) {

@@ -93,7 +93,7 @@ TEST_F(VrControls, KeysChangeThePictureAndAReplayShowsItAgain) {
       << "while the view is clear, keys for other pictures are not heeded";
 
   // Recentred, the head is where the scene's camera stands, and faces where it does.
-  const tracking::Pose start = *render::read_gltf(VERGENCE_BUILT_ASSETS "/reading_room.glb").start_pose;
+  const tracking::Pose start = *render::read_gltf(VERGENCE_BUILT_ASSETS "/reading_room.glb").start_pose();
   const std::vector<tracking::TraceRow> rows = tracking::read_gaze_trace(live.record).rows;
   const glm::dvec3 there = rows.at(8).head.position;
   EXPECT_NEAR(std::hypot(there.x - start.position.x, there.z - start.position.z), 0.0, 1e-9);

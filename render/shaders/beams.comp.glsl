@@ -17,7 +17,10 @@ layout(std430, binding = 11) buffer Edges { uint edges[]; };
 layout(std430, binding = 12) buffer Keys { uvec2 keys[]; };  // read for the last time; shares take their place
 layout(binding = 13) uniform usamplerBuffer pixels;
 
-// How well a face fits what the middle ray met: its slope, less its error in depth; -2 if it cannot be that face.
+const float kLeastLikeness = -1.5;
+
+// How well a face fits what the middle ray met: its slope, less its error in depth; far less than the least that will
+// do if it cannot be that face.
 float likeness(SquareFace face, uvec2 key, float depth) {
   vec3 normal = vec3((uvec3(key.x) >> uvec3(16u, 21u, 26u)) & 31u) * (2.0 / 31.0) - 1.0;
   bool may_be = has_points(face.points) && (face.material & 0xfffu) == (key.x & 0xfffu);
@@ -74,7 +77,7 @@ void main() {
     float depth = uintBitsToFloat(texelFetch(pixels, int(at)).w);
     vec4 like = vec4(likeness(faces.a, key, depth), likeness(faces.b, key, depth), likeness(faces.c, key, depth),
                      likeness(faces.d, key, depth));
-    float best = max(max(max(like.x, like.y), max(like.z, like.w)), -1.5);
+    float best = max(max(max(like.x, like.y), max(like.z, like.w)), kLeastLikeness);
     bool is_sky = depth == 0.0;
     uvec4 a = like.x == best ? faces.a.points : uvec4(0u);
     uvec4 b = like.y == best ? faces.b.points : uvec4(0u);

@@ -165,7 +165,7 @@ TEST(HeadTurn, SeesWhatOnlyABeamsMiddleMeets) {
 
 // Strokes down to a twentieth of a pixel. Less than 1/64 of the paper's light, what eyes tell apart at best, and for
 // the chart, which hangs in even light, less than two of a square's 128 points. On the card the ink's shadow shows on
-// the paper as well, a line of a fifteenth of a pixel, which only rays can find. Nine rays a pixel made it 0.025 and
+// the paper as well, a line of a twelfth of a pixel, which only rays can find. Nine rays a pixel made it 0.025 and
 // 0.043.
 TEST(HeadTurn, LeavesPrintAlone) {
   struct Sheet {

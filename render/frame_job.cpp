@@ -302,16 +302,16 @@ void FrameJob::record_edges(vk::Commands& commands) {
     dispatch_view(commands, kernels_.get(Stage::find_edges, variant_),
                   {&out_.pixels, &out_.keys, &out_.blocks, &out_.list, &out_.doubtful});
     commands.barrier();
-    dispatch_list(commands, kernels_.get(Stage::beams, variant_), with_scene({&out_.doubtful, &out_.list}),
-                  out_.doubtful);
+    dispatch_list(commands, kernels_.get(Stage::beams, variant_),
+                  with_scene({&out_.doubtful, &out_.list, &out_.keys, &out_.pixels}), out_.doubtful);
     commands.barrier();
     empty_list(commands, out_.doubtful);
     commands.barrier();
     const vk::Kernel& edges = kernels_.get(Stage::edges, variant_);
-    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.list, &out_.doubtful}), out_.list);
+    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.list, &out_.doubtful, &out_.keys}), out_.list);
     commands.barrier();
     data_.view.y = 1;
-    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.doubtful, &out_.list}), out_.doubtful);
+    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.doubtful, &out_.list, &out_.keys}), out_.doubtful);
     data_.view.y = 0;
   }
   commands.timestamp("edges");

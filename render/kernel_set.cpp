@@ -122,9 +122,9 @@ Recipe recipe_of(Stage stage) {
               {texel_rgba32ui, texel_rg32ui, texel_r32ui, storage_buffer, storage_buffer},
               Constants::none};
     case Stage::beams:
-      return {"beams", shaders::beams, scene_and(2), Constants::scene};
+      return {"beams", shaders::beams, scene_and(3, {texel_rgba32ui}), Constants::scene};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(3), Constants::scene};
+      return {"edges", shaders::edges, scene_and(3, {texel_rg32ui}), Constants::scene};
     case Stage::samples:
       return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
               Constants::samples};

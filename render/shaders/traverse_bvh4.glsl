@@ -113,9 +113,9 @@ Hit traverse_bvh4(vec3 origin, vec3 direction, float t_max, bool any_hit) {
   } while (current != kTraversalDone && steps < kMaxTraversalSteps);
   return best;
 }
+#ifdef __cplusplus
 #undef VERGENCE_ORDER
-
-#ifndef __cplusplus
+#else
 bool trace_closest(vec3 origin, vec3 direction, float t_max, out Hit hit) {
   hit = traverse_bvh4(origin, direction, t_max, false);
   return hit.triangle != kNoTriangle;

@@ -17,6 +17,20 @@ std::vector<std::string> rung_names() {
   return names;
 }
 
+// One after another, in lines that a terminal holds beside the names of the options.
+std::string in_lines(const std::vector<std::string>& names) {
+  constexpr std::size_t kLine = 96;
+  std::string text;
+  std::size_t line = 0;
+  for (const std::string& name : names) {
+    const bool fits = line + name.size() + 2 <= kLine;
+    text += text.empty() ? "" : fits ? ", " : ",\n";
+    line = fits ? line + name.size() + 2 : name.size();
+    text += name;
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& scene, const SceneHelp& help) {
@@ -54,8 +68,11 @@ void add_picture_options(CLI::App& command, PictureOptions& picture, const std::
     rungs.emplace_back("auto");
   }
   command
-      .add_option("--accuracy", picture.accuracy, auto_accuracy.empty() ? "Rung of the accuracy ladder" : auto_accuracy)
-      ->check(CLI::IsMember(rungs))
+      .add_option(
+          "--accuracy", picture.accuracy,
+          (auto_accuracy.empty() ? "Rung of the accuracy ladder" : auto_accuracy) + "; one of\n" + in_lines(rungs))
+      ->type_name("RUNG")
+      ->check(CLI::IsMember(rungs).description(""))
       ->capture_default_str();
   command.add_option("--threshold", picture.threshold_px, "Blurs with a smaller major semi-axis are not drawn, px")
       ->capture_default_str();

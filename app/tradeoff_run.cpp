@@ -186,6 +186,9 @@ class Tradeoff {
     renderer_.prepare(setup_.lenses, setup_.views, job.config);
     render::FrameConfig config = job.config;
     config.keep_wavefront = true;
+    if (!render::is_map(config.mode) && config.accuracy.lens.cubics == render::TileCubics::in_pictures) {
+      config.accuracy.lens.cubics = render::TileCubics::always;  // the wavefronts of the picture that is timed
+    }
     const render::RenderedFrame frame = renderer_.render(setup_.lenses, setup_.views, config);
     job.row.setting = job.rung.name;
     job.row.subject = job.rung.subject;

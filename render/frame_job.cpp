@@ -105,7 +105,7 @@ FrameJob::FrameJob(vk::Device& device, const SceneBuffers& scene, KernelSet& ker
   }
   if (may_be_cubic(config, views, traversal) && can_be_cubic(device.limits(), variant_.surface_kinds)) {
     corners_ = tile_corner_grid(config.width, config.height);
-    variant_.cubic_rays = true;
+    cubic_rays_ = true;
     no_tiles_ = filled_buffer(device, std::vector<std::uint32_t>(out.size.cubic_tiles, kNoTile));
   }
   if (config.accuracy.lens.in_double && variant_.surface_kinds != 0) {
@@ -185,11 +185,14 @@ void FrameJob::record_trace(vk::Commands& commands) {
     if (variant_.hits_known) {
       find_hits(commands);
     }
-    const Buffers buffers{&out_.pixels,         &out_.keys,      &out_.wavefronts, &out_.hits,        &out_.ray_origins,
-                          &out_.ray_directions, &out_.transfers, &out_.corners,    &out_.smooth_tiles};
-    trace_with(commands, Stage::found, buffers);
-    if (variant_.cubic_rays) {
-      dispatch_rough(commands, Stage::found, with_scene(buffers));
+    const Buffers to_found{&out_.pixels,      &out_.keys,           &out_.wavefronts, &out_.hits,
+                           &out_.ray_origins, &out_.ray_directions, &out_.transfers};
+    if (cubic_rays_) {
+      trace_with(commands, Stage::found_cubic,
+                 {&out_.pixels, &out_.keys, &out_.wavefronts, &out_.hits, &out_.corners, &out_.smooth_tiles});
+      dispatch_rough(commands, Stage::found, with_scene(to_found));
+    } else {
+      trace_with(commands, Stage::found, to_found);
     }
   }
   commands.timestamp("trace");
@@ -199,7 +202,7 @@ void FrameJob::record_trace(vk::Commands& commands) {
 void FrameJob::aim(vk::Commands& commands) {
   const Buffers buffers =
       with_scene({&out_.ray_origins, &out_.ray_directions, &out_.list, &out_.wavefronts, &out_.transfers});
-  if (variant_.cubic_rays) {
+  if (cubic_rays_) {
     empty_rough_lists(commands);
   }
   for (data_.view.x = 0; data_.view.x < data_.size.z; ++data_.view.x) {
@@ -208,7 +211,7 @@ void FrameJob::aim(vk::Commands& commands) {
     if (corners_.rays() > 0 && !variant_.sampled) {
       trace_corners(commands);
     }
-    if (variant_.cubic_rays) {
+    if (cubic_rays_) {
       aim_cubics(commands, buffers);
     } else if (corners_.rays() > 0 && !variant_.sampled) {
       dispatch_view(commands, kernels_.get(Stage::between, variant_),
@@ -269,12 +272,16 @@ void FrameJob::find_hits(vk::Commands& commands) {
     dispatch(commands, kernels_.get(Stage::ray_query, variant_),
              with_scene({&out_.ray_origins, &out_.ray_directions, &out_.hits, &out_.list, accelerated_}));
   } else {
-    const Buffers buffers{
-        &out_.ray_origins, &out_.ray_directions, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list,
-        &out_.ray_origins, &out_.ray_directions, &out_.corners,      &out_.smooth_tiles,    &views_};
-    dispatch(commands, kernels_.get(Stage::tile, variant_), buffers);
-    if (variant_.cubic_rays) {
+    const Buffers buffers{&out_.ray_origins,     &out_.ray_directions, &scene_.wide_nodes,
+                          &scene_.bvh_triangles, &out_.hits,           &out_.list};
+    if (cubic_rays_) {
+      dispatch(commands, kernels_.get(Stage::tile_cubic, variant_),
+               {&out_.corners, &out_.smooth_tiles, &scene_.wide_nodes, &scene_.bvh_triangles, &out_.hits, &out_.list,
+                &views_, &out_.ray_origins, &out_.ray_directions});
+      commands.barrier();
       dispatch_rough(commands, Stage::tile, buffers);
+    } else {
+      dispatch(commands, kernels_.get(Stage::tile, variant_), buffers);
     }
   }
   commands.barrier();
@@ -295,16 +302,16 @@ void FrameJob::record_edges(vk::Commands& commands) {
     dispatch_view(commands, kernels_.get(Stage::find_edges, variant_),
                   {&out_.pixels, &out_.keys, &out_.blocks, &out_.list, &out_.doubtful});
     commands.barrier();
-    dispatch_list(commands, kernels_.get(Stage::beams, variant_), with_scene({&out_.doubtful, &out_.list}),
-                  out_.doubtful);
+    dispatch_list(commands, kernels_.get(Stage::beams, variant_),
+                  with_scene({&out_.doubtful, &out_.list, &out_.keys, &out_.pixels}), out_.doubtful);
     commands.barrier();
     empty_list(commands, out_.doubtful);
     commands.barrier();
     const vk::Kernel& edges = kernels_.get(Stage::edges, variant_);
-    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.list, &out_.doubtful}), out_.list);
+    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.list, &out_.doubtful, &out_.keys}), out_.list);
     commands.barrier();
     data_.view.y = 1;
-    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.doubtful, &out_.list}), out_.doubtful);
+    dispatch_list(commands, edges, with_scene({&out_.pixels, &out_.doubtful, &out_.list, &out_.keys}), out_.doubtful);
     data_.view.y = 0;
   }
   commands.timestamp("edges");
@@ -370,7 +377,6 @@ void FrameJob::dispatch(vk::Commands& commands, const vk::Kernel& kernel, const 
 // Those of the view's tiles whose rays are no cubics, one ray a pixel.
 void FrameJob::dispatch_rough_view(vk::Commands& commands, Stage stage, Buffers buffers) {
   TraceVariant rough = variant_;
-  rough.cubic_rays = false;
   rough.listed_tiles = true;
   buffers.push_back(&out_.rough_tiles);
   commands.dispatch_indirect(kernels_.get(stage, rough), buffers, vk::bytes_of(data_), out_.rough_counts,

@@ -69,6 +69,7 @@ class FrameJob {
   std::optional<vk::Buffer> double_table_, double_views_;  // where the lens is traced in double precision
   CornerGrid corners_;
   bool trace_corners_ = false;          // of each frame anew; a field's may be known
+  bool cubic_rays_ = false;             // of smooth tiles (lens_forms/tile_cubics.hpp)
   std::optional<vk::Buffer> no_tiles_;  // what lists of rough tiles begin as, where smooth tiles' rays are cubics
   TraceVariant variant_;
   gpu::FrameData data_{};

@@ -24,12 +24,14 @@
 #include "shaders/find_edges.hpp"
 #include "shaders/find_rough.hpp"
 #include "shaders/found.hpp"
+#include "shaders/found_cubic.hpp"
 #include "shaders/left_out.hpp"
 #include "shaders/ray_query.hpp"
 #include "shaders/rays.hpp"
 #include "shaders/rays_double.hpp"
 #include "shaders/samples.hpp"
 #include "shaders/tile.hpp"
+#include "shaders/tile_cubic.hpp"
 #include "shaders/unsettled.hpp"
 #include "shaders/unsettled_corners.hpp"
 
@@ -55,7 +57,6 @@ constexpr std::size_t kColumnsAt = 11;  // shaders/columns.glsl
 enum class Constants { none, lanes_and_features, scene, chief, aim, samples, blur };
 
 constexpr std::size_t kListedTilesAt = 10;  // shaders/group.glsl
-constexpr std::size_t kCubicRaysAt = 12;    // shaders/tile.comp.glsl, shaders/found.comp.glsl
 
 struct Recipe {
   const char* name;
@@ -90,8 +91,13 @@ Recipe recipe_of(Stage stage) {
     case Stage::tile:
       return {"tile",
               shaders::tile,
-              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer,
-               storage_buffer, storage_buffer, texel_rgba32f, texel_r32ui, texel_rgba32ui},
+              {texel_rgba32f, texel_rgba32f, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer},
+              Constants::lanes_and_features};
+    case Stage::tile_cubic:
+      return {"tile_cubic",
+              shaders::tile_cubic,
+              {texel_rgba32f, texel_r32ui, texel_rgba32ui, texel_rgba32f, storage_buffer, storage_buffer,
+               texel_rgba32ui, storage_buffer, storage_buffer},
               Constants::lanes_and_features};
     case Stage::ray_query:
       return {"ray_query", shaders::ray_query,
@@ -103,8 +109,10 @@ Recipe recipe_of(Stage stage) {
     case Stage::chief:
       return {"trace", shaders::chief, scene_and(3), Constants::chief};
     case Stage::found:
-      return {"found", shaders::found,
-              scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f, texel_rgba32f, texel_r32ui}),
+      return {"found", shaders::found, scene_and(3, {texel_r32ui, texel_rgba32f, texel_rgba32f, texel_rgba32f}),
+              Constants::chief};
+    case Stage::found_cubic:
+      return {"found_cubic", shaders::found_cubic, scene_and(3, {texel_r32ui, texel_rgba32f, texel_r32ui}),
               Constants::chief};
     case Stage::beam_blocks:
       return {"beam_blocks", shaders::beam_blocks, scene_and(1, {texel_rgba32ui, texel_rg32ui}), Constants::scene};
@@ -114,9 +122,9 @@ Recipe recipe_of(Stage stage) {
               {texel_rgba32ui, texel_rg32ui, texel_r32ui, storage_buffer, storage_buffer},
               Constants::none};
     case Stage::beams:
-      return {"beams", shaders::beams, scene_and(2), Constants::scene};
+      return {"beams", shaders::beams, scene_and(3, {texel_rgba32ui}), Constants::scene};
     case Stage::edges:
-      return {"edges", shaders::edges, scene_and(3), Constants::scene};
+      return {"edges", shaders::edges, scene_and(3, {texel_rg32ui}), Constants::scene};
     case Stage::samples:
       return {"samples", shaders::samples, scene_and(2, {texel_r32ui, texel_rgba32f, texel_rgba32f}),
               Constants::samples};
@@ -167,9 +175,11 @@ bool goes_by_tiles(Stage stage) {
     case Stage::between:
     case Stage::find_rough:
     case Stage::tile:
+    case Stage::tile_cubic:
     case Stage::ray_query:
     case Stage::chief:
     case Stage::found:
+    case Stage::found_cubic:
     case Stage::beam_blocks:
     case Stage::find_edges:
     case Stage::samples:
@@ -220,10 +230,6 @@ const vk::Kernel& KernelSet::get(Stage stage, const TraceVariant& variant) {
   if (variant.listed_tiles && goes_by_tiles(stage)) {
     key[kListedTilesAt] = 1U;
     count = std::max(count, kListedTilesAt + 1);
-  }
-  if (variant.cubic_rays && (stage == Stage::tile || stage == Stage::found)) {
-    key[kCubicRaysAt] = 1U;
-    count = kCubicRaysAt + 1;
   }
   return get(stage, key, count);
 }

@@ -19,10 +19,12 @@ enum class Stage : std::uint32_t {
   unsettled,
   find_rough,
   tile,
+  tile_cubic,
   ray_query,
   left_out,
   chief,
   found,
+  found_cubic,
   beam_blocks,
   find_edges,
   beams,
@@ -51,7 +53,6 @@ struct TraceVariant {
   bool keep_transfer = false;      // rays leave, and found rays take up, the ray-transfer matrix as well
   bool sampled = false;            // rays are samples of distributed rays
   bool hits_known = false;         // what rays meet is found by a kernel of its own
-  bool cubic_rays = false;         // of smooth tiles, which alone are drawn (shaders/tile_cubics.glsl)
   bool listed_tiles = false;       // not all tiles are drawn (shown_tiles.hpp)
 };
 
@@ -79,7 +80,7 @@ class KernelSet {
   [[nodiscard]] std::size_t size() const { return kernels_.size(); }
 
  private:
-  using Key = std::array<std::uint32_t, 14>;  // the constants by id, at the end the stage
+  using Key = std::array<std::uint32_t, 13>;  // the constants by id, at the end the stage
 
   const vk::Kernel& get(Stage stage, Key key, std::size_t constants);
 

@@ -1,7 +1,7 @@
 // Renders the views of one or two eyes on the device, both in one submission. The stages, each one kernel:
 //   rays, tile  what every chief ray meets, many rays together, where that is faster (traversal.hpp)
 //   trace   one chief ray a pixel: pupil, back, front, scene; vergence, accommodation, residual, blur ellipse
-//   edges   four or eight rays more where a picture has an edge or a beam finds a stroke between rays
+//   edges   the parts of a pixel that its faces have, a ray for each not met yet; more rays where light has edges
 //   blur    approximate defocus (mode adof)          or   samples   distributed rays (mode dof)
 //   encode  linear radiance to sRGB, or a wavefront map to colours
 #pragma once

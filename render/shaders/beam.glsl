@@ -1,4 +1,4 @@
-// The beam of a pixel, or of a block of them: all rays through its square, of FOOTPRINT_PIXELS a side. Whether it meets
+// The beam of a block of pixels: all rays through its square, of FOOTPRINT_PIXELS a side. Whether it meets
 // something that its middle ray does not show, a stroke or a wire that lies between the rays of all pixels around.
 // Neighbouring rays run as the ray-transfer matrix says (pixel_beam); after pixel.glsl.
 
@@ -74,71 +74,109 @@ bool shows_in_beam(uint triangle, SceneRay middle, Beam beam, SeenFace seen) {
   return sound && in_front && (other || nearer) && overlap(quad);
 }
 
-// Any triangle of the tree that shows in the beam. Boxes grow by the beam's half width where they end.
+// A beam as the tree's boxes meet it: they grow by its half width where they end.
+struct BeamReach {
+  vec3 inverse;  // of the middle ray's direction
+  float width;
+  float growth;  // of the width with distance
+  float far;     // what lies beyond does not count
+};
+
+BeamReach beam_reach(SceneRay middle, Beam beam, float far) {
+  return BeamReach(vec3(slab_inverse(middle.direction.x), slab_inverse(middle.direction.y),
+                        slab_inverse(middle.direction.z)),
+                   0.5 * (length(beam.start.across) + length(beam.start.up)),
+                   0.5 * (length(beam.growth.across) + length(beam.growth.up)), far);
+}
+
+const int kBoxMissed = 0x7FFFFFFF;
+
+// A node's children: where the beam enters each, as the bits of a float, or kBoxMissed.
+struct BeamBoxes {
+  ivec4 entry;
+  uvec4 child;
+};
+
+BeamBoxes beam_boxes(uint node, SceneRay middle, BeamReach beam) {
+  int texel = int(node * kBvhNodeTexels);
+  uvec4 q0 = texelFetch(bvh_nodes, texel);
+  uvec4 q1 = texelFetch(bvh_nodes, texel + 1);
+  uvec4 q2 = texelFetch(bvh_nodes, texel + 2);
+  uvec4 child = texelFetch(bvh_nodes, texel + 3);
+  vec3 start = vec3(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z)) - middle.origin;
+  vec3 scale = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y));
+  // The sides that a ray comes to first and last; each slab's are in order.
+  bvec3 along = greaterThan(beam.inverse, vec3(0.0));
+  vec4 near_x = unpack_bytes(along.x ? q1.z : q1.w) * scale.x + start.x;
+  vec4 near_y = unpack_bytes(along.y ? q2.x : q2.y) * scale.y + start.y;
+  vec4 near_z = unpack_bytes(along.z ? q2.z : q2.w) * scale.z + start.z;
+  vec4 far_x = unpack_bytes(along.x ? q1.w : q1.z) * scale.x + start.x;
+  vec4 far_y = unpack_bytes(along.y ? q2.y : q2.x) * scale.y + start.y;
+  vec4 far_z = unpack_bytes(along.z ? q2.w : q2.z) * scale.z + start.z;
+  vec4 end = far_x * middle.direction.x + far_y * middle.direction.y + far_z * middle.direction.z;
+  end = mix(end, vec4(0.0), lessThan(end, vec4(0.0)));
+  end = mix(end, vec4(beam.far), greaterThan(end, vec4(beam.far)));
+  vec4 grow = beam.width + beam.growth * end;
+  vec3 steep = abs(beam.inverse);
+  ivec4 entry = max(max(floatBitsToInt(near_x * beam.inverse.x - grow * steep.x),
+                        floatBitsToInt(near_y * beam.inverse.y - grow * steep.y)),
+                    max(floatBitsToInt(near_z * beam.inverse.z - grow * steep.z), ivec4(0)));
+  ivec4 leave = min(min(floatBitsToInt(far_x * beam.inverse.x + grow * steep.x),
+                        floatBitsToInt(far_y * beam.inverse.y + grow * steep.y)),
+                    min(floatBitsToInt(far_z * beam.inverse.z + grow * steep.z), ivec4(floatBitsToInt(beam.far))));
+  return BeamBoxes(ivec4(entry.x <= leave.x && child.x != kBvhNoChild ? entry.x : kBoxMissed,
+                         entry.y <= leave.y && child.y != kBvhNoChild ? entry.y : kBoxMissed,
+                         entry.z <= leave.z && child.z != kBvhNoChild ? entry.z : kBoxMissed,
+                         entry.w <= leave.w && child.w != kBvhNoChild ? entry.w : kBoxMissed),
+                   child);
+}
+
+// Any triangle of the tree that shows in the beam.
 bool beam_shows_more(SceneRay middle, Beam beam, SeenFace seen) {
-  float reach = 0.0;
+  float far = 0.0;
   for (int k = 0; k < 4; ++k) {
-    reach = max(reach, plane_distance(corner_ray(middle, beam, k), seen));
+    far = max(far, plane_distance(corner_ray(middle, beam, k), seen));
   }
-  reach *= 1.0001;
-  float width = 0.5 * (length(beam.start.across) + length(beam.start.up));
-  float growth = 0.5 * (length(beam.growth.across) + length(beam.growth.up));
-  vec3 direction = middle.direction;
-  vec3 inverse = vec3(slab_inverse(direction.x), slab_inverse(direction.y), slab_inverse(direction.z));
+  BeamReach reach = beam_reach(middle, beam, far * 1.0001);
   uint stack[kBvhStackSize];
   int top = 0;
-  uint current = is_sound(middle.origin, direction) ? 0u : kTraversalDone;
+  uint current = is_sound(middle.origin, middle.direction) ? 0u : kTraversalDone;
   int steps = 0;
   bool found = false;
-  while (current != kTraversalDone && steps < kMaxTraversalSteps) {
-    while (current < kBvhLeafBit && steps < kMaxTraversalSteps) {
-      ++steps;
-      int texel = int(current * kBvhNodeTexels);
-      uvec4 q0 = texelFetch(bvh_nodes, texel);
-      uvec4 q1 = texelFetch(bvh_nodes, texel + 1);
-      uvec4 q2 = texelFetch(bvh_nodes, texel + 2);
-      uvec4 child = texelFetch(bvh_nodes, texel + 3);
-      vec3 start = vec3(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z)) - middle.origin;
-      vec3 scale = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y));
-      vec4 x0 = unpack_bytes(q1.z) * scale.x + start.x;
-      vec4 x1 = unpack_bytes(q1.w) * scale.x + start.x;
-      vec4 y0 = unpack_bytes(q2.x) * scale.y + start.y;
-      vec4 y1 = unpack_bytes(q2.y) * scale.y + start.y;
-      vec4 z0 = unpack_bytes(q2.z) * scale.z + start.z;
-      vec4 z1 = unpack_bytes(q2.w) * scale.z + start.z;
-      vec4 end = max(x0 * direction.x, x1 * direction.x) + max(y0 * direction.y, y1 * direction.y) +
-                 max(z0 * direction.z, z1 * direction.z);
-      vec4 grow = width + growth * clamp(end, 0.0, reach);
-      vec4 ax = (x0 - grow) * inverse.x, bx = (x1 + grow) * inverse.x;
-      vec4 ay = (y0 - grow) * inverse.y, by = (y1 + grow) * inverse.y;
-      vec4 az = (z0 - grow) * inverse.z, bz = (z1 + grow) * inverse.z;
-      vec4 entry = max(max(min(ax, bx), min(ay, by)), max(min(az, bz), vec4(0.0)));
-      vec4 leave = min(min(max(ax, bx), max(ay, by)), min(max(az, bz), vec4(reach)));
-      if (entry.x <= leave.x && child.x != kBvhNoChild) stack[top++] = child.x;
-      if (entry.y <= leave.y && child.y != kBvhNoChild) stack[top++] = child.y;
-      if (entry.z <= leave.z && child.z != kBvhNoChild) stack[top++] = child.z;
-      if (entry.w <= leave.w && child.w != kBvhNoChild) stack[top++] = child.w;
-      current = top > 0 ? stack[--top] : kTraversalDone;
-    }
-    while (current >= kBvhLeafBit && current != kTraversalDone) {
-      uint first = (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
-      uint count = current & kBvhLeafCountMask;
-      for (uint i = 0u; i < count && !found; ++i) {
-        found = shows_in_beam(first + i, middle, beam, seen);
+  // Loops ask at their end: on a software device one that asks at its start runs once more for nothing.
+  do {
+    do {
+      if (current < kBvhLeafBit) {
+        ++steps;
+        BeamBoxes boxes = beam_boxes(current, middle, reach);
+        if (boxes.entry.x != kBoxMissed) stack[top++] = boxes.child.x;
+        if (boxes.entry.y != kBoxMissed) stack[top++] = boxes.child.y;
+        if (boxes.entry.z != kBoxMissed) stack[top++] = boxes.child.z;
+        if (boxes.entry.w != kBoxMissed) stack[top++] = boxes.child.w;
+        current = top > 0 ? stack[--top] : kTraversalDone;
       }
-      current = top > 0 && !found ? stack[--top] : kTraversalDone;
-    }
-  }
+    } while (current < kBvhLeafBit && steps < kMaxTraversalSteps);
+    do {
+      if (current >= kBvhLeafBit && current != kTraversalDone) {
+        uint first = (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
+        uint count = current & kBvhLeafCountMask;
+        uint i = 0u;
+        do {
+          found = shows_in_beam(first + i, middle, beam, seen);
+          ++i;
+        } while (i < count && !found);
+        current = top > 0 && !found ? stack[--top] : kTraversalDone;
+      }
+    } while (current >= kBvhLeafBit && current != kTraversalDone);
+  } while (current != kTraversalDone && steps < kMaxTraversalSteps);
   return found;
 }
 
-const uint kShowsAnything = 0xffffffffu;
-
 // at: the beam's middle, pixels from the picture's upper left corner. shown: a key (pack_key) of what the rays of pixels
-// show; where the beam's own middle ray shows another material or status, that is more already. Or kShowsAnything.
+// show; where the beam's own middle ray shows another material or status, that is more already.
 bool square_shows_more(ViewData view, vec2 at, uint shown) {
   PixelRay ray = aim_pixel(view, pixel_direction(view, at), vec2(0.0), vec2(0.0));
-  if (shown != kShowsAnything && uint(ray.status) != ((shown >> 12) & 15u)) {
+  if (uint(ray.status) != ((shown >> 12) & 15u)) {
     return true;
   }
   if (shows_rim(ray.status)) {
@@ -156,6 +194,6 @@ bool square_shows_more(ViewData view, vec2 at, uint shown) {
     seen.normal = normalize(cross(texelFetch(bvh_triangles, texel + 1).xyz, texelFetch(bvh_triangles, texel + 2).xyz));
   }
   uint material = seen.met ? seen.material & 0xfffu : 0xfffu;
-  bool other = shown != kShowsAnything && material != (shown & 0xfffu);
+  bool other = material != (shown & 0xfffu);
   return other || beam_shows_more(middle, pixel_beam(view, ray), seen);
 }

@@ -24,6 +24,9 @@ bool differs_in_shape(uvec2 key, float depth, int at) {
   return abs(other_depth - depth) > 0.05 * max(max(depth, other_depth), 0.0);
 }
 
+// Beside the lens, or through its rim.
+bool differs_in_status(uvec2 key, int at) { return ((texelFetch(keys, at).x ^ key.x) & 0xf000u) != 0u; }
+
 // Shadows and textures have edges too: a jump of more than an eighth.
 bool differs_in_light(uvec2 key, int at) {
   float luminance = uintBitsToFloat(key.y);

@@ -18,25 +18,27 @@
 
 layout(constant_id = 0) const uint kLanes = 8u;  // of a subgroup: 8, 16, 32 or 64
 layout(constant_id = 1) const uint kSceneFeatures = 0xffffffffu;  // kFeature... of view.h
-layout(constant_id = 12) const uint kCubicRays = 0u;  // 1: rays are cubics between corners, in smooth tiles alone
 #define HAS(features) ((kSceneFeatures & uint(features)) != 0u)
 layout(local_size_x_id = 0) in;
-layout(binding = 0) uniform samplerBuffer ray_origins;
-layout(binding = 1) uniform samplerBuffer ray_directions;
 layout(binding = 2) uniform usamplerBuffer wide_nodes;
 layout(binding = 3) uniform samplerBuffer bvh_triangles;
 layout(std430, binding = 4) writeonly buffer Hits { uint hits[]; };
 layout(std430, binding = 5) buffer LeftOut { uint left_out[]; };  // pixels to be traced one by one
-layout(std430, binding = 6) writeonly buffer Origins { vec4 origins[]; };  // of what is left out of cubic rays
-layout(std430, binding = 7) writeonly buffer Directions { vec4 directions_out[]; };
-layout(binding = 8) uniform samplerBuffer corners;
-layout(binding = 9) uniform usamplerBuffer is_smooth;
-layout(binding = 10) uniform usamplerBuffer view_words;
 layout(push_constant) uniform Frame { FrameData frame; };
-#define SHOWN_TILES_AT 11
+// CUBIC_RAYS: of smooth tiles alone, whose rays are cubics between corners.
+#ifdef CUBIC_RAYS
+layout(binding = 0) uniform samplerBuffer corners;
+layout(binding = 1) uniform usamplerBuffer is_smooth;
+layout(binding = 6) uniform usamplerBuffer view_words;
+layout(std430, binding = 7) writeonly buffer Origins { vec4 origins[]; };  // of what is left out
+layout(std430, binding = 8) writeonly buffer Directions { vec4 directions_out[]; };
+#define SHOWN_TILES_AT 9
+#else
+layout(binding = 0) uniform samplerBuffer ray_origins;
+layout(binding = 1) uniform samplerBuffer ray_directions;
+#define SHOWN_TILES_AT 6
+#endif
 #include "render/shaders/group.glsl"
-#include "render/shaders/view_texels.h"
-#include "render/shaders/tile_cubics.glsl"
 
 #include "render/shaders/triangle_hit.glsl"
 #include "render/shaders/features.h"
@@ -137,14 +139,52 @@ int pixel_of(uint ray) {
   return outside ? -1 : (frame.view.x * frame.size.y + p.y) * frame.size.x + p.x;
 }
 
+// Where a tile's rays come from.
+#ifdef CUBIC_RAYS
+#include "render/shaders/tile_cubics.glsl"
+#include "render/shaders/view_texels.h"
+
+struct GivenRays {
+  bool is_drawn;
+  ColumnRays rays;
+};
+
 vec4 world_column(int i) { return uintBitsToFloat(texelFetch(view_words, kViewTexels * frame.view.x + kViewWorldAt + i)); }
+
+GivenRays given_rays() {
+  ivec2 tile = ivec2(group_in_picture());
+  return GivenRays(tile_is_smooth(is_smooth, tile),
+                   column_rays(tile_corners(tile), world_column(0), world_column(1), world_column(2)));
+}
+
+// w < 0: there is none.
+vec4 given_direction(GivenRays given, uint ray, int at) {
+  return vec4(cubic_direction(given.rays, int(ray)), given.is_drawn ? 1.0 : -1.0);
+}
+
+vec3 given_origin(GivenRays given, uint ray, int at) { return cubic_origin(given.rays, int(ray)); }
+
+void keep_ray(int at, vec3 origin, vec4 direction) {
+  origins[at] = vec4(origin, 0.0);
+  directions_out[at] = direction;
+}
+#else
+struct GivenRays {
+  bool is_drawn;
+};
+
+GivenRays given_rays() { return GivenRays(true); }
+vec4 given_direction(GivenRays given, uint ray, int at) { return texelFetch(ray_directions, max(at, 0)); }
+vec3 given_origin(GivenRays given, uint ray, int at) { return texelFetch(ray_origins, max(at, 0)).xyz; }
+void keep_ray(int at, vec3 origin, vec4 direction) {}
+#endif
 
 // A macro, because a loop around the loop would not be unrolled, and then the rays would be looked up by an index.
 #define TEST_PART(part)                                                                                              \
   {                                                                                                                  \
     uint here = (survivors >> (8u * part)) & 255u;                                                                   \
     do {                                                                                                             \
-      uint j = uint(findLSB(here));                                                                                  \
+      uint j = uint(findLSB(here)) & 7u;                                                                             \
       float nowhere = here == 0u ? -kFar : 0.0;                                                                      \
       here &= here - 1u;                                                                                             \
       vec4 plane = vec4(OF_LANE(n.x, j), OF_LANE(n.y, j), OF_LANE(n.z, j), OF_LANE(dn, j));                          \
@@ -172,24 +212,11 @@ void main() {
   vec3 high = vec3(-kFar);
   vec3 starts[kRays];
   vec4 directions[kRays];
-  bool is_cubic = true;
-  ColumnRays cubics;
-  if (kCubicRays != 0u) {
-    ivec2 tile = ivec2(group_in_picture());
-    is_cubic = tile_is_smooth(is_smooth, tile);
-    cubics = column_rays(tile_corners(tile), world_column(0), world_column(1), world_column(2));
-  }
+  GivenRays given = given_rays();
   [[unroll]] for (uint r = 0u; r < kRays; ++r) {
     int at = pixel_of(r);
-    vec4 d;
-    vec3 o;
-    if (kCubicRays != 0u) {
-      d = vec4(cubic_direction(cubics, int(r)), is_cubic ? 1.0 : -1.0);
-      o = cubic_origin(cubics, int(r));
-    } else {
-      d = texelFetch(ray_directions, max(at, 0));
-      o = texelFetch(ray_origins, max(at, 0)).xyz;
-    }
+    vec4 d = given_direction(given, r, at);
+    vec3 o = given_origin(given, r, at);
     d.w = at >= 0 ? d.w : -1.0;
     starts[r] = o;
     directions[r] = d;
@@ -292,7 +319,7 @@ void main() {
       sound = sound && fits;
       farthest = fits ? farthest : -1.0;
       // The farthest lies deepest, the nearest is already taken off.
-      key = OF_LANE(sorted(hit ? key | kHitBit : 0u), lane - stack.size);
+      key = OF_LANE(sorted(hit ? key | kHitBit : 0u), (lane - stack.size) % kLanes);
       uint reference = OF_LANE(low_q.w, key & 7u);
       [[unroll]] for (uint i = 0u; i < kStackSlots; ++i) {
         stack.slot[i] = kLanes * i + lane - stack.size < count ? reference : stack.slot[i];
@@ -377,15 +404,12 @@ void main() {
     PlaneHit there = plane_hit(met ? found[r] : 0u, starts[r], direction.xyz);
     bool holds = sound && (!met || (is_hit(there, kFarthest) && (there.flags & kBvhCutOut) == 0u &&
                                     ((there.flags & kBvhCulled) == 0u || there.determinant > 0.0)));
-    if (at >= 0 && is_cubic) {
+    if (at >= 0 && given.is_drawn) {
       hits[at] = found[r];
     }
     if (at >= 0 && direction.w >= 0.0 && !holds) {
       APPEND(left_out, uint(at))
-      if (kCubicRays != 0u) {
-        origins[at] = vec4(starts[r], 0.0);
-        directions_out[at] = direction;
-      }
+      keep_ray(at, starts[r], direction);
     }
   }
 }

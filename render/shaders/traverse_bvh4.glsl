@@ -52,59 +52,70 @@ Hit traverse_bvh4(vec3 origin, vec3 direction, float t_max, bool any_hit) {
   int top = 0;
   uint current = 0u;
   int steps = 0;
-  while (current != kTraversalDone && steps < kMaxTraversalSteps) {
-    while (current < kBvhLeafBit && steps < kMaxTraversalSteps) {
-      ++steps;
-      int texel = int(current * kBvhNodeTexels);
-      uvec4 q0 = texelFetch(bvh_nodes, texel);
-      uvec4 q1 = texelFetch(bvh_nodes, texel + 1);
-      uvec4 q2 = texelFetch(bvh_nodes, texel + 2);
-      uvec4 child = texelFetch(bvh_nodes, texel + 3);
-      vec3 start = (vec3(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z)) - origin) * inverse;
-      vec3 scale = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y)) * inverse;
-      ivec4 x0 = floatBitsToInt(unpack_bytes(q1.z) * scale.x + start.x);
-      ivec4 x1 = floatBitsToInt(unpack_bytes(q1.w) * scale.x + start.x);
-      ivec4 y0 = floatBitsToInt(unpack_bytes(q2.x) * scale.y + start.y);
-      ivec4 y1 = floatBitsToInt(unpack_bytes(q2.y) * scale.y + start.y);
-      ivec4 z0 = floatBitsToInt(unpack_bytes(q2.z) * scale.z + start.z);
-      ivec4 z1 = floatBitsToInt(unpack_bytes(q2.w) * scale.z + start.z);
-      ivec4 entry = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), ivec4(0)));
-      ivec4 leave = min(min(max(x0, x1), max(y0, y1)), min(max(z0, z1), ivec4(floatBitsToInt(best.t))));
-      // Entry and exit carry five roundings each; 16 units in the last place cover both (as in Ize, Robust BVH ray
-      // traversal, 2013).
-      leave = leave + ivec4(16);
-      entry.x = entry.x <= leave.x && child.x != kBvhNoChild ? entry.x : kMissed;
-      entry.y = entry.y <= leave.y && child.y != kBvhNoChild ? entry.y : kMissed;
-      entry.z = entry.z <= leave.z && child.z != kBvhNoChild ? entry.z : kMissed;
-      entry.w = entry.w <= leave.w && child.w != kBvhNoChild ? entry.w : kMissed;
-      VERGENCE_ORDER(x, y)
-      VERGENCE_ORDER(z, w)
-      VERGENCE_ORDER(x, z)
-      VERGENCE_ORDER(y, w)
-      VERGENCE_ORDER(y, z)
-      // The builder bounds the depth so that this fits.
-      if (entry.w != kMissed) stack[top++] = child.w;
-      if (entry.z != kMissed) stack[top++] = child.z;
-      if (entry.y != kMissed) stack[top++] = child.y;
-      if (entry.x != kMissed) {
-        current = child.x;
-      } else {
-        current = top > 0 ? stack[--top] : kTraversalDone;
+  // Loops ask at their end: on a software device one that asks at its start runs once more for nothing.
+  do {
+    do {
+      if (current < kBvhLeafBit) {
+        ++steps;
+        int texel = int(current * kBvhNodeTexels);
+        uvec4 q0 = texelFetch(bvh_nodes, texel);
+        uvec4 q1 = texelFetch(bvh_nodes, texel + 1);
+        uvec4 q2 = texelFetch(bvh_nodes, texel + 2);
+        uvec4 child = texelFetch(bvh_nodes, texel + 3);
+        vec3 start = (vec3(uintBitsToFloat(q0.x), uintBitsToFloat(q0.y), uintBitsToFloat(q0.z)) - origin) * inverse;
+        vec3 scale = vec3(uintBitsToFloat(q0.w), uintBitsToFloat(q1.x), uintBitsToFloat(q1.y)) * inverse;
+        ivec4 x0 = floatBitsToInt(unpack_bytes(q1.z) * scale.x + start.x);
+        ivec4 x1 = floatBitsToInt(unpack_bytes(q1.w) * scale.x + start.x);
+        ivec4 y0 = floatBitsToInt(unpack_bytes(q2.x) * scale.y + start.y);
+        ivec4 y1 = floatBitsToInt(unpack_bytes(q2.y) * scale.y + start.y);
+        ivec4 z0 = floatBitsToInt(unpack_bytes(q2.z) * scale.z + start.z);
+        ivec4 z1 = floatBitsToInt(unpack_bytes(q2.w) * scale.z + start.z);
+        ivec4 entry = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), ivec4(0)));
+        ivec4 leave = min(min(max(x0, x1), max(y0, y1)), min(max(z0, z1), ivec4(floatBitsToInt(best.t))));
+        // Entry and exit carry five roundings each; 16 units in the last place cover both (as in Ize, Robust BVH ray
+        // traversal, 2013).
+        leave = leave + ivec4(16);
+        entry.x = entry.x <= leave.x && child.x != kBvhNoChild ? entry.x : kMissed;
+        entry.y = entry.y <= leave.y && child.y != kBvhNoChild ? entry.y : kMissed;
+        entry.z = entry.z <= leave.z && child.z != kBvhNoChild ? entry.z : kMissed;
+        entry.w = entry.w <= leave.w && child.w != kBvhNoChild ? entry.w : kMissed;
+        VERGENCE_ORDER(x, y)
+        VERGENCE_ORDER(z, w)
+        VERGENCE_ORDER(x, z)
+        VERGENCE_ORDER(y, w)
+        VERGENCE_ORDER(y, z)
+        // The builder bounds the depth so that this fits. What is missed is overwritten: a branch would run both sides.
+        stack[top] = child.w;
+        top += entry.w != kMissed ? 1 : 0;
+        stack[top] = child.z;
+        top += entry.z != kMissed ? 1 : 0;
+        stack[top] = child.y;
+        top += entry.y != kMissed ? 1 : 0;
+        bool goes_down = entry.x != kMissed;
+        bool goes_on = !goes_down && top > 0;
+        top -= goes_on ? 1 : 0;
+        current = goes_down ? child.x : (goes_on ? stack[top] : kTraversalDone);
       }
-    }
-    while (current >= kBvhLeafBit && current != kTraversalDone) {
-      uint first = (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
-      uint count = current & kBvhLeafCountMask;
-      for (uint i = 0u; i < count; ++i) best = closer_hit(best, first + i, origin, direction);
-      current = top > 0 ? stack[--top] : kTraversalDone;
-      if (any_hit && best.triangle != kNoTriangle) current = kTraversalDone;
-    }
-  }
+    } while (current < kBvhLeafBit && steps < kMaxTraversalSteps);
+    do {
+      if (current >= kBvhLeafBit && current != kTraversalDone) {
+        uint first = (current >> kBvhLeafFirstShift) & kBvhLeafFirstMask;
+        uint count = current & kBvhLeafCountMask;
+        uint i = 0u;
+        do {
+          best = closer_hit(best, first + i, origin, direction);
+          ++i;
+        } while (i < count);
+        current = top > 0 ? stack[--top] : kTraversalDone;
+        if (any_hit && best.triangle != kNoTriangle) current = kTraversalDone;
+      }
+    } while (current >= kBvhLeafBit && current != kTraversalDone);
+  } while (current != kTraversalDone && steps < kMaxTraversalSteps);
   return best;
 }
+#ifdef __cplusplus
 #undef VERGENCE_ORDER
-
-#ifndef __cplusplus
+#else
 bool trace_closest(vec3 origin, vec3 direction, float t_max, out Hit hit) {
   hit = traverse_bvh4(origin, direction, t_max, false);
   return hit.triangle != kNoTriangle;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "tests/support/run_program.hpp"
 #include "tests/support/tiny_scene.hpp"
@@ -217,6 +218,31 @@ TEST_F(RenderRefuses, OptionsThatAreNone) {
   expect({"--fov"}, kBadInput, "--fov", "missing");
   expect({"--fov="}, kBadInput, "--fov", "missing");
   expect({"--fov", "30", "--fov", "40"}, kBadInput, "--fov", "1 required but received 2");
+}
+
+// A terminal folds longer lines anywhere; what an option may be is listed in lines of its own.
+TEST(Help, HasNoEndlessLines) {
+  constexpr std::size_t kLongest = 132;
+  for (const Words& command : {Words{"render"},
+                               {"bench"},
+                               {"vr"},
+                               {"tradeoff"},
+                               {"trace"},
+                               {"measure"},
+                               {"lens", "check"},
+                               {"lens", "from-prescription"},
+                               {"lens", "progressive"}}) {
+    Words words = command;
+    words.push_back("--help");
+    const ProgramResult result = run_program({.arguments = words});
+    EXPECT_EQ(result.exit_status, 0);
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), kLongest) << command.front() << ": " << line;
+  }
+  const ProgramResult refused = run_program({.arguments = {"render", "--accuracy", "no rung"}});
+  EXPECT_EQ(refused.exit_status, 2);
+  EXPECT_NE(refused.err.find("foveated-10-2"), std::string::npos) << "what is allowed: " << refused.err;
 }
 
 TEST_F(RenderRefuses, PlacesThatCannotBeWritten) {

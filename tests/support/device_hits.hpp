@@ -56,8 +56,7 @@ inline DeviceHits device_hits(render::vk::Device& device, const render::SceneBuf
   if (traversal == render::Traversal::tile) {
     commands.dispatch(kernels.get(render::Stage::tile, variant),
                       {&buffers.ray_origins, &buffers.ray_directions, &scene.wide_nodes, &scene.bvh_triangles,
-                       &buffers.hits, &buffers.list, &buffers.ray_origins, &buffers.ray_directions, &buffers.corners,
-                       &buffers.smooth_tiles, &views, &buffers.shown_tiles},
+                       &buffers.hits, &buffers.list, &buffers.shown_tiles},
                       render::vk::bytes_of(frame), static_cast<std::uint32_t>(width + 7) / 8,
                       static_cast<std::uint32_t>(height + 7) / 8);
     commands.barrier();

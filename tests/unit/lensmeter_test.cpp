@@ -174,7 +174,7 @@ TEST(Lensmeter, AFrontBeforeAPlaneBackReadsItsOwnPower) {
 }
 
 Lens progressive() {
-  return lenses::read_lens(std::string(VERGENCE_ASSETS) + "/lenses/progressive_add200_right.json");
+  return lenses::read_lens(VERGENCE_ASSETS "/lenses/progressive_add200_right.json");
 }
 
 // The figures of the closed form, which tests/unit/progressive_family_test.cpp has from the formulas: 5.00 D at the

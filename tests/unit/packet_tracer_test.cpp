@@ -64,7 +64,7 @@ TEST(PacketTracer, SeesWhatSingleRaysLookAt) {
 }
 
 TEST(PacketTracer, SeesTheReadingRoomAsSingleRaysDo) {
-  const render::Scene room = render::read_gltf(std::string(VERGENCE_BUILT_ASSETS) + "/reading_room.glb");
+  const render::Scene room = render::read_gltf(VERGENCE_BUILT_ASSETS "/reading_room.glb");
   std::vector<render::SceneRay> rays = fan();
   const glm::dvec3 eye = room.start_pose().value_or(tracking::Pose{}).position;
   for (render::SceneRay& ray : rays) ray.origin = glm::vec3(eye);

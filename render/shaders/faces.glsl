@@ -215,6 +215,10 @@ float reach_of_all(SquareFaces faces) {
 // How many triangles wait to be added: those of two leaves at least.
 const int kMostWaiting = 32;
 
+// Nodes and triangles that a square is worth; where there are more, rays tell. Mesa's software device ends every loop of a
+// group of invocations after 65,535 turns of them all, whoever is not done: eight times this, and the leaves, stay below.
+const int kMostSquareSteps = 2048;
+
 // All that shows in the beam up to `far`. Triangles are found first and added later, all invocations together: on a
 // software device what one of them does costs as much as when all do it.
 SquareFaces square_faces(SceneRay middle, Beam beam, float far) {
@@ -230,7 +234,7 @@ SquareFaces square_faces(SceneRay middle, Beam beam, float far) {
   while (current != kTraversalDone) {
     int count = 0;
     while (current != kTraversalDone && count <= kMostWaiting - int(kBvhMaxLeafTriangles)) {
-      while (current < kBvhLeafBit && steps < kMaxTraversalSteps) {
+      while (current < kBvhLeafBit && steps < kMostSquareSteps) {
         ++steps;
         BeamBoxes boxes = beam_boxes(current, middle, reach);
         if (boxes.entry.x != kBoxMissed) stack[top++] = boxes.child.x;
@@ -247,9 +251,11 @@ SquareFaces square_faces(SceneRay middle, Beam beam, float far) {
           waiting[count] = first + i;
           count += may_show(triangle_in_square(first + i, middle, beam), reach.far) ? 1 : 0;
         }
+        steps += int(triangles);
         current = top > 0 ? stack[--top] : kTraversalDone;
       }
-      current = steps < kMaxTraversalSteps ? current : kTraversalDone;
+      faces.unknown = faces.unknown || steps >= kMostSquareSteps;
+      current = faces.unknown ? kTraversalDone : current;
     }
     for (int i = 0; i < count; ++i) {
       add_triangle(faces, waiting[i], triangle_in_square(waiting[i], middle, beam));

@@ -215,9 +215,10 @@ float reach_of_all(SquareFaces faces) {
 // How many triangles wait to be added: those of two leaves at least.
 const int kMostWaiting = 32;
 
-// Nodes and triangles that a square is worth; where there are more, rays tell. Mesa's software device ends every loop of a
-// group of invocations after 65,535 turns of them all, whoever is not done: eight times this, and the leaves, stay below.
-const int kMostSquareSteps = 2048;
+// Nodes and triangles that a square is worth; where there are more, rays tell. Mesa's software device ends all loops of a
+// workgroup after 65,535 turns, whoever is not done; beyond 640 crowded squares of wide pictures met that end, and what
+// they showed hung on the pixels beside them on the list.
+const int kMostSquareSteps = 512;
 
 // All that shows in the beam up to `far`. Triangles are found first and added later, all invocations together: on a
 // software device what one of them does costs as much as when all do it.

@@ -1,6 +1,7 @@
 // What approximate defocus costs and how close it comes: adof_bench [ROUNDS [SAMPLES]]. Before the views that it is
-// judged by, milliseconds of a pinhole frame, of an adof frame and of its blur stage, medians of interleaved rounds. Then
-// print under blurs of a few pixels and less, which those views hardly have, by PSNR against SAMPLES distributed rays.
+// judged by, milliseconds of a pinhole frame, of an adof frame and of its blur stage, medians of interleaved rounds.
+// Then print under blurs of a few pixels and less, which those views hardly have, by PSNR against SAMPLES distributed
+// rays.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -12,6 +12,7 @@
 #include "tests/support/contact_lens.hpp"
 #include "tests/support/optics_cases.hpp"
 #include "tests/support/rung_frame.hpp"
+#include "tests/support/worn_lens.hpp"
 
 namespace {
 
@@ -24,26 +25,13 @@ using support::RungFrame;
 constexpr int kSize = 80;  // pixels
 const auto kFov = tracking::FieldOfView::symmetric(50.0 * support::kDegree, 1.0);
 
-struct Worn {
+struct Worn : support::WornLens {
   std::string name;
-  support::WornPair pair;
-  render::ViewSetup view;
 };
 
 Worn worn(const std::string& name, const Lens& lens, render::Viewing viewing = render::Viewing::gaze,
           const glm::dvec3& gaze = {0.0, -0.3, -1.0}) {
-  const lenses::Spectacles both{name, {lens, lens}, glm::dvec3(1.0)};
-  Worn w{name, support::wear(lenses::Wearer{}, &both, tracking::Pose{}), {}};
-  w.view = support::view_along(w.pair, 0, viewing, gaze, kFov);
-  return w;
-}
-
-Lens progressive() {
-  return lenses::read_lens(VERGENCE_TEST_DATA "/progressive_add200_right.json");
-}
-
-Lens of_file(const std::string& name) {
-  return lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/" + name + ".json").lens[0];
+  return {support::worn_lens(lens, kFov, viewing, gaze), name};
 }
 
 // Its rim and the bare scene are in the picture.
@@ -88,7 +76,7 @@ class LensRungs : public testing::Test {
 };
 
 TEST_F(LensRungs, AreAsNearAsTheirSettingsSayThroughAProgressive) {
-  auto e = all(worn("progressive", progressive()));
+  auto e = all(worn("progressive", support::progressive_lens()));
   for (const auto& [name, errors] : e) {
     SCOPED_TRACE(name);
     EXPECT_TRUE(errors.finite);
@@ -129,9 +117,9 @@ TEST_F(LensRungs, AreAsNearAsTheirSettingsSayThroughAProgressive) {
 }
 
 TEST_F(LensRungs, KeepRimsAndSegmentsWhereTheyAre) {
-  for (const Worn& w : {worn("bifocal", of_file("presbyopia_bifocal")), worn("small lens", small_lens()),
+  for (const Worn& w : {worn("bifocal", support::example_lens("presbyopia_bifocal")), worn("small lens", small_lens()),
                         worn("contact lens", support::contact_lens(), render::Viewing::gaze, {0.3, 0.2, -1.0}),
-                        worn("scanning", progressive(), render::Viewing::scanning)}) {
+                        worn("scanning", support::progressive_lens(), render::Viewing::scanning)}) {
     for (const auto& [name, errors] : all(w, true)) {
       SCOPED_TRACE(w.name + ", " + name);
       EXPECT_TRUE(errors.finite);
@@ -148,7 +136,7 @@ TEST_F(LensRungs, KeepRimsAndSegmentsWhereTheyAre) {
 
 // What a device finds ray by ray is seen through the same kept rays.
 TEST_F(LensRungs, AreTheSameWhateverFindsTheScene) {
-  const Worn w = worn("progressive", progressive());
+  const Worn w = worn("progressive", support::progressive_lens());
   const support::ReferencePicture reference(w.pair, w.view, kSize);
   for (const LensAccuracy& lens : {LensAccuracy{.spacing = 8}, LensAccuracy{.in_double = true},
                                    LensAccuracy{.form = LensForm::mesh, .facets = 1000}}) {
@@ -163,8 +151,8 @@ TEST_F(LensRungs, AreTheSameWhateverFindsTheScene) {
 TEST_F(LensRungs, AFieldIsThatOfItsView) {
   const LensAccuracy field{.form = LensForm::field, .field_side = 64};
   render::Renderer renderer(device_->device, support::patch_scene({support::wall(2.0F, 4.0F, 1.0F)}));
-  const Worn ahead = worn("ahead", progressive(), render::Viewing::gaze, {0.0, 0.0, -1.0});
-  const Worn down = worn("down", progressive());
+  const Worn ahead = worn("ahead", support::progressive_lens(), render::Viewing::gaze, {0.0, 0.0, -1.0});
+  const Worn down = worn("down", support::progressive_lens());
   render::FrameConfig config;
   config.width = config.height = kSize;
   config.mode = render::Mode::power;
@@ -185,7 +173,7 @@ TEST_F(LensRungs, AFieldIsThatOfItsView) {
 // through a coarse mesh they are not.
 TEST_F(LensRungs, ServeDistributedRays) {
   render::Renderer renderer(device_->device, support::patch_scene({support::wall(2.0F, 0.3F, 1.0F)}));
-  const Worn w = worn("progressive", progressive());
+  const Worn w = worn("progressive", support::progressive_lens());
   render::FrameConfig config;
   config.width = config.height = 48;
   config.mode = render::Mode::dof;

@@ -9,6 +9,7 @@
 #include "render/lens_forms/tile_cubics.hpp"
 #include "tests/support/contact_lens.hpp"
 #include "tests/support/rung_frame.hpp"
+#include "tests/support/worn_lens.hpp"
 
 namespace {
 
@@ -22,25 +23,11 @@ constexpr int kTiles = kSize / 8;
 constexpr LensAccuracy kCubic{.cubics = TileCubics::always};
 constexpr LensAccuracy kOwn{.cubics = TileCubics::never};
 
-struct Worn {
-  support::WornPair pair;
-  render::ViewSetup view;
-};
+using Worn = support::WornLens;
 
 Worn worn(const Lens& lens, const glm::dvec3& gaze = {0.0, -0.3, -1.0},
           render::Viewing viewing = render::Viewing::gaze) {
-  const lenses::Spectacles both{"both", {lens, lens}, glm::dvec3(1.0)};
-  Worn w{support::wear(lenses::Wearer{}, &both, tracking::Pose{}), {}};
-  w.view = support::view_along(w.pair, 0, viewing, gaze, kFov);
-  return w;
-}
-
-Lens progressive() {
-  return lenses::read_lens(VERGENCE_TEST_DATA "/progressive_add200_right.json");
-}
-
-Lens of_file(const std::string& name) {
-  return lenses::read_spectacles(VERGENCE_ASSETS "/spectacles/" + name + ".json").lens[0];
+  return support::worn_lens(lens, kFov, viewing, gaze);
 }
 
 Lens toric(double diameter = 0.060) {
@@ -79,11 +66,12 @@ TEST_F(TileCubicsTest, AreAsNearTheReferenceAsIsSaid) {
     Worn worn;
     double least_smooth;  // of all tiles
   };
-  for (const Case& c : {Case{"progressive", worn(progressive()), 0.6},
-                        Case{"B-spline and sphere", worn(of_file("presbyopia_bspline_sphere")), 0.6},
-                        Case{"toric, gaze to the side", worn(toric(), {0.4, 0.1, -1.0}), 0.99},
-                        Case{"scanning eye", worn(progressive(), {0.0, -0.3, -1.0}, render::Viewing::scanning), 0.5},
-                        Case{"contact lens", worn(support::contact_lens(), {0.3, 0.2, -1.0}), 0.3}}) {
+  for (const Case& c :
+       {Case{"progressive", worn(support::progressive_lens()), 0.6},
+        Case{"B-spline and sphere", worn(support::example_lens("presbyopia_bspline_sphere")), 0.6},
+        Case{"toric, gaze to the side", worn(toric(), {0.4, 0.1, -1.0}), 0.99},
+        Case{"scanning eye", worn(support::progressive_lens(), {0.0, -0.3, -1.0}, render::Viewing::scanning), 0.5},
+        Case{"contact lens", worn(support::contact_lens(), {0.3, 0.2, -1.0}), 0.3}}) {
     SCOPED_TRACE(c.name);
     support::RungFrame frame(*device_, c.worn.pair, c.worn.view, kCubic, kSize);
     frame.run();
@@ -121,7 +109,7 @@ TEST_F(TileCubicsTest, LeaveUnevenSurfacesToEachPixel) {
   ASSERT_TRUE(draws_cubics(device_->device));
   std::mt19937 random(20261122);
   std::uniform_real_distribution<double> height(-2e-7, 2e-7);  // m
-  Lens lens = progressive();
+  Lens lens = support::progressive_lens();
   auto& front = std::get<lenses::BsplineHeightField>(lens.front);
   for (double& z : front.control_z) z += height(random);
   const Worn w = worn(lens);
@@ -160,12 +148,12 @@ TEST_F(TileCubicsTest, KeepRimsWhereTheyAre) {
 }
 
 TEST_F(TileCubicsTest, AreNotForSegmentsNorForFiguresNorForCoarsePictures) {
-  EXPECT_EQ(wavefronts(worn(of_file("presbyopia_bifocal")), kCubic),
-            wavefronts(worn(of_file("presbyopia_bifocal")), kOwn));
+  EXPECT_EQ(wavefronts(worn(support::example_lens("presbyopia_bifocal")), kCubic),
+            wavefronts(worn(support::example_lens("presbyopia_bifocal")), kOwn));
   render::FrameConfig config;
   config.width = config.height = kSize;
   config.mode = render::Mode::adof;
-  const std::vector views{worn(progressive()).view};
+  const std::vector views{worn(support::progressive_lens()).view};
   EXPECT_TRUE(render::may_be_cubic(config, views, render::Traversal::tile));
   EXPECT_FALSE(render::may_be_cubic(config, views, render::Traversal::per_ray));
   config.keep_wavefront = true;
@@ -186,7 +174,7 @@ TEST_F(TileCubicsTest, AreNotForSegmentsNorForFiguresNorForCoarsePictures) {
 TEST_F(TileCubicsTest, ShowThePictureOfEveryPixelsRay) {
   const auto scene = support::patch_scene({support::wall(2.0F, 0.3F, 1.0F), support::wall(4.0F, 4.0F, 0.4F)});
   render::Renderer renderer(device_->device, scene, {.traversal = render::Traversal::tile});
-  Worn w = worn(progressive(), {0.0, -0.1, -1.0});
+  Worn w = worn(support::progressive_lens(), {0.0, -0.1, -1.0});
   render::ViewSetup bare = w.view;
   w.pair.model.lens.push_back(w.pair.model.lens[w.view.lens]);
   w.pair.model.lens.back().glass.w = 0.0;
